@@ -1,0 +1,30 @@
+#pragma once
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace vcg_ext {
+
+/// What the library throws at bad input: one text that names the cause and the cure.
+class Error : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Thrown where the progress callback asked to stop. The caller's surface is as it was.
+class Cancelled : public Error {
+public:
+    Cancelled() : Error("Cancelled; the mesh is unchanged.") {}
+};
+
+/// Progress callback: percent done (0 to 100) and the name of the phase. Returns false to cancel.
+using Progress = std::function<bool(int percent, const char* phase)>;
+
+/// Calls `progress`, where there is one, and throws Cancelled where it says so.
+inline void report(const Progress& progress, int percent, const char* phase)
+{
+    if (progress && !progress(percent, phase))
+        throw Cancelled();
+}
+
+} // namespace vcg_ext

@@ -1,0 +1,60 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+namespace vcg_ext {
+
+using Point = Eigen::Vector3d;
+using Points = std::vector<Point>;
+using Triangle = std::array<int, 3>;
+
+/// A triangle surface as plain arrays: what a host hands in and gets back.
+///
+/// Plain on purpose. The two MeshLab generations carry two versions of vcglib, and one program must not see two
+/// definitions of one VCG type. So the hosts' meshes end here, and `vcg_ext` uses one vcglib, the same in both (mesh.h).
+struct Surface {
+    Points points;                   ///< positions
+    std::vector<Triangle> triangles; ///< indices into `points`
+};
+
+/// Faces around each vertex: those of vertex `v` are `face[first[v]] .. face[first[v + 1] - 1]`, in ascending order.
+struct VertexFaces {
+    std::vector<int> first; ///< one more than there are vertices
+    std::vector<int> face;  ///< three times as many as there are faces
+
+    [[nodiscard]] const int* begin(int v) const { return face.data() + first[v]; }
+    [[nodiscard]] const int* end(int v) const { return face.data() + first[v + 1]; }
+    [[nodiscard]] int count(int v) const { return first[v + 1] - first[v]; }
+};
+
+[[nodiscard]] VertexFaces vertex_faces(int vertices, const std::vector<Triangle>& triangles);
+
+/// Twice the area times the unit normal of a triangle.
+[[nodiscard]] inline Point scaled_normal(const Points& points, const Triangle& t)
+{
+    return (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]);
+}
+
+/// Unit normals of all faces; zero where a face has no area.
+[[nodiscard]] Points face_normals(const Points& points, const std::vector<Triangle>& triangles);
+
+/// Length of the bounding box's diagonal over the vertices that faces refer to; 0 where there are none.
+[[nodiscard]] double bounding_diagonal(const Surface& surface);
+
+/// A surface in which every position occurs once, and the way back.
+///
+/// STL files share no vertices and textured meshes repeat them along seams. Vertices at one position count once and move
+/// together, so both stay closed, and a mark survives the way from STL to PLY.
+struct Welded {
+    Surface surface;               ///< sites (distinct positions of referenced vertices) and faces with three distinct ones
+    std::vector<int> site_of_vertex; ///< per vertex of the original: its site, or -1 where no such face refers to it
+};
+
+/// Welds by exact position (0 and -0 are one). Sites keep the order of their first vertices.
+[[nodiscard]] Welded weld(const Surface& surface);
+
+/// Positions of `original` with those of `sites` put in; vertices without a site keep theirs.
+[[nodiscard]] Points unweld(const Points& original, const std::vector<int>& site_of_vertex, const Points& sites);
+
+} // namespace vcg_ext

@@ -1,0 +1,111 @@
+#pragma once
+#include "error.h"
+#include "key/key.h"
+#include "key/message.h"
+#include "surface.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vcg_ext {
+
+/// How a vertex reaches its target; in the order in which users choose.
+enum class Method {
+    LM,       ///< vertex norms, sphere placement by Levenberg-Marquardt (thesis 5.5)
+    QSP,      ///< vertex norms, quadric selective placement (thesis 5.4)
+    Cho,      ///< vertex norms, radial placement (Cho et al.)
+    Geodesic, ///< geodesic distances, front placement (thesis chapter 4)
+    Spectral  ///< spectral coefficients of patches (thesis chapter 3)
+};
+
+enum class Statistic {
+    Mean,    ///< (4.8), (5.7): the carrier's mean against 1/2
+    Variance ///< (4.12), (5.11): the carrier's variance against 1/3
+};
+
+/// Which scalar the written file will hold. The blind self-check reads the coordinates as they will be stored.
+enum class Storage { Float, Double };
+
+[[nodiscard]] const char* name(Method method);
+[[nodiscard]] const char* name(Statistic statistic);
+
+/// What embedding and detection must agree on, besides the key.
+struct CarrierOptions {
+    Method method = Method::LM;
+    Statistic statistic = Statistic::Mean; ///< Spectral ignores it
+    int bits = 64;                         ///< number of carriers, 1 to 1024
+    double trim = -1; ///< eps of (5.2): part of the range cut off at both ends, 0 to 0.45; negative: drawn from the key
+};
+
+struct EmbedOptions : CarrierOptions {
+    Bits message;                     ///< at most `bits` long; what is left is zero. `bits` 0 takes its length
+    double strength = 0;              ///< alpha in (0, 0.5), for Spectral K > 1; 0 is the method's default, 0.1 and 15
+    Storage storage = Storage::Float; ///< where it is Double, the mark is still checked after rounding to float
+    int max_rounds = 10;              ///< rounds of correction before embedding gives up
+    std::array<double, 3> sphere_weights = {0.49, 0.49, 0.02}; ///< k1, k2, k3 of (5.24), for Method::LM
+};
+
+/// Iterations of Method::LM per moved vertex.
+struct SolverSummary {
+    double mean_iterations = 0;
+    int max_iterations = 0;
+    int not_converged = 0;
+};
+
+struct EmbedReport {
+    Method method{};
+    Statistic statistic{};
+    Bits bits;             ///< what was embedded, padded to the number of carriers
+    double strength = 0;   ///< as used
+    double trim = 0;       ///< as used
+    int carriers = 0;
+    int samples_min = 0;   ///< vertices in the poorest carrier
+    double detection_ratio = 0; ///< of the blind self-check: 1, or embed() throws
+    int rounds = 0;
+    int moved_vertices = 0;
+    int guarded_vertices = 0; ///< vertices that took another point than their best, so that no face folds
+    double max_displacement = 0;
+    double mrms = 0;
+    double mrms_relative = 0; ///< over the bounding box's diagonal
+    std::map<std::string, double> seconds; ///< by phase
+    std::optional<SolverSummary> solver;   ///< Method::LM only
+    std::vector<std::string> warnings;
+};
+
+struct DetectOptions : CarrierOptions {
+    std::optional<Bits> expected; ///< the message to compare with, padded with zeros to `bits`
+};
+
+struct DetectReport {
+    Method method{};
+    Statistic statistic{};
+    double trim = 0;
+    Bits bits;
+    std::vector<double> soft; ///< per bit: the statistic's distance from the threshold in standard errors, positive for 1
+    std::vector<int> samples; ///< per bit: vertices in its carrier
+    std::optional<double> detection_ratio; ///< matching bits over all; with `expected` only
+    std::optional<double> p_value;         ///< exact binomial tail of at least that many matches by chance
+    std::optional<bool> present;           ///< p_value below 1e-6
+    std::map<std::string, double> seconds;
+    std::vector<std::string> warnings;
+    std::vector<int> carrier_of_vertex; ///< per vertex the number of the bit it carries, or -1
+};
+
+/// Hides a message in the positions of `surface`.
+///
+/// Ends with a blind detection on the coordinates as they will be stored; carriers that read wrong or weak get a
+/// corrected target and another round.
+///
+/// \throw Error      on bad input, or where the message could not be read back: says what to do. `surface` is unchanged.
+/// \throw Cancelled  where `progress` returned false. `surface` is unchanged.
+EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& options, const Progress& progress = {});
+
+/// Reads a message with the key alone. Same input, same answer: at any number of threads, on any machine.
+///
+/// \throw Error on input that cannot carry a mark: no faces, coordinates that are not finite, no range of values.
+[[nodiscard]] DetectReport detect(const Surface& surface, const Key& key, const DetectOptions& options,
+                                  const Progress& progress = {});
+
+} // namespace vcg_ext
