@@ -1,0 +1,145 @@
+#include "surface.h"
+
+#include "parallel.h"
+
+#include <cstdint>
+#include <cstring>
+#include <numeric>
+
+namespace vcg_ext {
+
+VertexFaces vertex_faces(int vertices, const std::vector<Triangle>& triangles)
+{
+    VertexFaces around;
+    around.first.assign(vertices + 1, 0);
+    for (const Triangle& t : triangles)
+        for (const int v : t)
+            ++around.first[v + 1];
+    std::partial_sum(around.first.begin(), around.first.end(), around.first.begin());
+    around.face.resize(3 * triangles.size());
+    std::vector<int> next(around.first.begin(), around.first.end() - 1);
+    for (std::size_t f = 0; f < triangles.size(); ++f)
+        for (const int v : triangles[f])
+            around.face[next[v]++] = static_cast<int>(f);
+    return around;
+}
+
+Points face_normals(const Points& points, const std::vector<Triangle>& triangles)
+{
+    Points normals(triangles.size());
+    for_each_index(static_cast<int>(triangles.size()), [&](int f) {
+        const Point n = scaled_normal(points, triangles[f]);
+        const double length = n.norm();
+        normals[f] = length > 0 ? Point(n / length) : Point(Point::Zero());
+    });
+    return normals;
+}
+
+double bounding_diagonal(const Surface& surface)
+{
+    if (surface.triangles.empty())
+        return 0;
+    Point low = surface.points[surface.triangles[0][0]];
+    Point high = low;
+    for (const Triangle& t : surface.triangles)
+        for (const int v : t) {
+            low = low.cwiseMin(surface.points[v]);
+            high = high.cwiseMax(surface.points[v]);
+        }
+    return (high - low).norm();
+}
+
+namespace {
+
+std::uint64_t hash(const Point& p)
+{
+    std::uint64_t h = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double x = p[axis] + 0.0; // -0 becomes 0
+        std::uint64_t word = 0;
+        std::memcpy(&word, &x, sizeof word);
+        h = (h ^ word) * 0x9E3779B97F4A7C15u;
+        h ^= h >> 29;
+    }
+    return h;
+}
+
+/// Gives equal positions one number, in the order in which they first come.
+class Sites {
+public:
+    explicit Sites(std::size_t expected)
+    {
+        std::size_t size = 16;
+        while (size < 2 * expected)
+            size *= 2;
+        slot_.assign(size, -1);
+    }
+
+    int number(const Point& p)
+    {
+        const std::size_t mask = slot_.size() - 1;
+        std::size_t at = hash(p) & mask;
+        for (; slot_[at] >= 0; at = (at + 1) & mask)
+            if (points[slot_[at]] == p)
+                return slot_[at];
+        slot_[at] = static_cast<int>(points.size());
+        points.push_back(p);
+        return slot_[at];
+    }
+
+    Points points;
+
+private:
+    std::vector<int> slot_; // open addressing: a table of numbers, so no order but the input's reaches the result
+};
+
+} // namespace
+
+Welded weld(const Surface& surface)
+{
+    const std::size_t vertices = surface.points.size();
+    Sites all(vertices);
+    all.points.reserve(vertices);
+    std::vector<int> position(vertices);
+    for (std::size_t v = 0; v < vertices; ++v)
+        position[v] = all.number(surface.points[v]);
+
+    std::vector<Triangle> triangles;
+    triangles.reserve(surface.triangles.size());
+    std::vector<int> site_of_position(all.points.size(), -1);
+    for (const Triangle& t : surface.triangles) {
+        const Triangle welded = {position[t[0]], position[t[1]], position[t[2]]};
+        if (welded[0] == welded[1] || welded[1] == welded[2] || welded[2] == welded[0])
+            continue;
+        triangles.push_back(welded);
+        for (const int p : welded)
+            site_of_position[p] = 0;
+    }
+
+    Welded result;
+    result.surface.points.reserve(all.points.size());
+    for (std::size_t p = 0; p < all.points.size(); ++p)
+        if (site_of_position[p] == 0) {
+            site_of_position[p] = static_cast<int>(result.surface.points.size());
+            result.surface.points.push_back(all.points[p]);
+        }
+    for (Triangle& t : triangles)
+        for (int& p : t)
+            p = site_of_position[p];
+    result.surface.triangles = std::move(triangles);
+    result.site_of_vertex.resize(vertices);
+    for (std::size_t v = 0; v < vertices; ++v)
+        result.site_of_vertex[v] = site_of_position[position[v]];
+    return result;
+}
+
+Points unweld(const Points& original, const std::vector<int>& site_of_vertex, const Points& sites)
+{
+    Points points = original;
+    for (std::size_t v = 0; v < points.size(); ++v)
+        if (site_of_vertex[v] >= 0)
+            points[v] = sites[site_of_vertex[v]];
+    return points;
+}
+
+} // namespace vcg_ext
