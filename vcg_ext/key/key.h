@@ -38,8 +38,8 @@ private:
 
 /// The 256-bit secret that all draws come from, wiped from memory when it ends.
 ///
-/// A passphrase goes through Argon2id (libsodium, 2 passes, 64 MiB, a fixed salt: detection is blind, so there is no place
-/// to keep a random one). Deriving costs some 0.1 s: do it once and pass the key on.
+/// A passphrase goes through Argon2id (libsodium, 2 passes, 64 MiB, a fixed salt: detection is blind, so there is no
+/// place to keep a random one). Deriving costs some 0.1 s: do it once and pass the key on.
 class Key {
 public:
     /// \param secret the passphrase's bytes  \throw Error where it is empty
