@@ -9,18 +9,20 @@ namespace vcg_ext {
 /// Shells of vertex norms and strips of geodesic distances both end up here.
 struct Carriers {
     int count = 0;
-    double low = 0;             ///< scalar at which carrier 0 begins
-    double width = 0;           ///< scalar width of each; carrier k is [low + k width, low + (k + 1) width)
-    std::vector<int> label;     ///< per vertex its carrier, or -1
-    std::vector<double> value;  ///< per vertex its place in the carrier, in [0, 1); 0 where label is -1
+    double low = 0;            ///< scalar at which carrier 0 begins
+    double width = 0;          ///< scalar width of each; carrier k is [low + k width, low + (k + 1) width)
+    std::vector<int> label;    ///< per vertex its carrier, or -1
+    std::vector<double> value; ///< per vertex its place in the carrier, in [0, 1); 0 where label is -1
 
     /// The scalar at place `x` of carrier `label`.
     [[nodiscard]] double scalar(int label, double x) const { return low + width * (label + x); }
 };
 
-/// Cuts the range between `minimum` and `maximum` of a scalar: `trim` of it off at both ends, `count` equal widths between
+/// Cuts the range between `minimum` and `maximum` of a scalar: `trim` of it off at both ends, `count` equal widths
+/// between
 /// ((5.2)-(5.6), (4.6) with its offset put right). \param scalar one per vertex; negative or infinite: no carrier
-[[nodiscard]] Carriers cut_range(const std::vector<double>& scalar, double minimum, double maximum, double trim, int count);
+[[nodiscard]] Carriers cut_range(const std::vector<double>& scalar, double minimum, double maximum, double trim,
+                                 int count);
 
 /// How many vertices each carrier has.
 [[nodiscard]] std::vector<int> samples(const Carriers& carriers);

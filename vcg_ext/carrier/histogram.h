@@ -6,10 +6,11 @@ namespace vcg_ext {
 /// Maps the values of one carrier so that their statistic reaches `target` ((4.7)-(4.14), (5.6)-(5.13); Cho et al.):
 /// x' = x^beta for the mean, sign(z) |z|^beta with z = 2x - 1 for the variance.
 ///
-/// beta is the root of a monotone function. Values end inside [guard, 1 - guard], so that rounding to float cannot push one
-/// into the neighbour; where the guard keeps the target out of reach, beta is the one that comes nearest.
+/// beta is the root of a monotone function. Values end inside [guard, 1 - guard], so that rounding to float cannot push
+/// one into the neighbour; where the guard keeps the target out of reach, beta is the one that comes nearest.
 ///
-/// \param values in [0, 1]   \param target in (0, 1)   \param guard in [0, 0.5)   \return the mapped values, in the same order
+/// \param values in [0, 1]   \param target in (0, 1)   \param guard in [0, 0.5)   \return the mapped values, in the
+/// same order
 [[nodiscard]] std::vector<double> map_histogram(const std::vector<double>& values, Statistic statistic, double target,
                                                 double guard);
 

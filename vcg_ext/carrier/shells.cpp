@@ -1,0 +1,50 @@
+#include "shells.h"
+
+#include "../parallel.h"
+
+#include <algorithm>
+
+namespace vcg_ext {
+
+Point area_centre(const Points& points, const std::vector<Triangle>& triangles)
+{
+    using Moments =
+        Eigen::Vector4d; // sum A (a + b + c) / 3 and sum A, about the first corner, so that far is not inexact
+    if (triangles.empty())
+        throw Error("The mesh has no faces, so it has no surface to mark. Reconstruct the surface first.");
+    const Point near = points[triangles[0][0]];
+    const Moments sum = ordered_sum(static_cast<int>(triangles.size()), Moments(Moments::Zero()), [&](int f) {
+        const Triangle& t = triangles[f];
+        const double area = scaled_normal(points, t).norm();
+        Moments moments;
+        moments << area * ((points[t[0]] - near) + (points[t[1]] - near) + (points[t[2]] - near)) / 3, area;
+        return moments;
+    });
+    if (!(sum[3] > 0))
+        throw Error("No face of the mesh has an area. Check its coordinates, or reconstruct the surface.");
+    return near + sum.head<3>() / sum[3];
+}
+
+std::vector<double> norms(const Points& points, const Point& centre)
+{
+    std::vector<double> result(points.size());
+    for_each_index(static_cast<int>(points.size()), [&](int v) { result[v] = (points[v] - centre).norm(); });
+    return result;
+}
+
+Shells shells(const Points& points, const std::vector<Triangle>& triangles, double trim, int count)
+{
+    Shells result;
+    result.centre = area_centre(points, triangles);
+    result.norms = norms(points, result.centre);
+    const auto [low, high] = std::minmax_element(result.norms.begin(), result.norms.end());
+    result.minimum = *low;
+    result.maximum = *high;
+    if (!(result.maximum - result.minimum > 1e-9 * result.maximum))
+        throw Error("All vertices are equally far from the mesh's centre, so their distances cannot carry a message. "
+                    "Use another method, or another mesh.");
+    result.carriers = cut_range(result.norms, result.minimum, result.maximum, trim, count);
+    return result;
+}
+
+} // namespace vcg_ext

@@ -1,0 +1,40 @@
+#pragma once
+#include "../surface.h"
+
+#include <algorithm>
+
+namespace vcg_ext {
+
+/// The unmarked surface with what placements ask of it, computed once.
+struct Cover {
+    explicit Cover(const Surface& surface)
+        : points(surface.points), triangles(surface.triangles),
+          around(vertex_faces(static_cast<int>(points.size()), triangles)), normals(face_normals(points, triangles))
+    {
+    }
+
+    const Points& points;
+    const std::vector<Triangle>& triangles;
+    VertexFaces around;
+    Points normals; ///< of faces, unit; zero where a face has no area
+};
+
+/// Where (5.21) and Cho start: `v` moved along the ray from `centre` to the distance `norm`.
+[[nodiscard]] inline Point radial_point(const Point& v, const Point& centre, double norm)
+{
+    return centre + (v - centre) * (norm / (v - centre).norm());
+}
+
+/// Whether a face no longer lies as on the cover: turned by more than 60 degrees, or down to a twentieth of its area.
+///
+/// 60 and not 90: the promise is 90, and rounding to float must not break it.
+[[nodiscard]] inline bool folded(const Cover& cover, int face, const Point& scaled_normal_now)
+{
+    const Point& n = cover.normals[face];
+    if (n.isZero())
+        return false; // without an area there is no side to turn away from
+    const double area = scaled_normal(cover.points, cover.triangles[face]).norm();
+    return n.dot(scaled_normal_now) < std::max(0.5 * scaled_normal_now.norm(), area / 20);
+}
+
+} // namespace vcg_ext

@@ -1,0 +1,23 @@
+#pragma once
+#include "cover.h"
+
+#include <functional>
+
+namespace vcg_ext {
+
+/// Takes moves back, step by step, until no face is folded.
+///
+/// A vertex is at step 0 where it was placed. All vertices of a folded face go one step further together, again and
+/// again till the face lies right. Steps only grow, and at the last the vertex is back on the cover, where no face is
+/// folded: so this ends, and the order of vertices or threads has no part in the result.
+///
+/// \param placed  positions at step 0; on return the guarded ones
+/// \param retreat the position of a vertex at step 1 to `steps` - 1; at `steps` it is the cover's own
+/// \return per vertex the step it ended at
+std::vector<int> guard_folds(const Cover& cover, Points& placed, int steps,
+                             const std::function<Point(int vertex, int step)>& retreat);
+
+/// Faces of `points` that are folded against the cover, in ascending order.
+[[nodiscard]] std::vector<int> folded_faces(const Cover& cover, const Points& points);
+
+} // namespace vcg_ext

@@ -1,0 +1,100 @@
+#include "selective.h"
+
+#include <cmath>
+#include <limits>
+#include <vcg/math/quadric.h>
+#include <vcg/space/distance3.h>
+#include <vcg/space/triangle3.h>
+
+namespace vcg_ext {
+
+namespace {
+
+vcg::Point3d to_vcg(const Point& p)
+{
+    return {p.x(), p.y(), p.z()};
+}
+
+Point nearest_in_triangle(const std::array<Point, 3>& face, const Point& from)
+{
+    const vcg::Triangle3<double> triangle(to_vcg(face[0] - from), to_vcg(face[1] - from), to_vcg(face[2] - from));
+    double distance = 0;
+    vcg::Point3d nearest;
+    vcg::TrianglePointDistance(triangle, vcg::Point3d(0, 0, 0), distance, nearest);
+    return from + Point(nearest[0], nearest[1], nearest[2]);
+}
+
+/// The point between `from` and `to` whose distance from the centre is `norm`.
+Point on_the_way(const Point& from, const Point& to, const Point& centre, double norm)
+{
+    const Point start = from - centre;
+    const Point way = to - from;
+    const double a = way.squaredNorm();
+    const double b = start.dot(way);
+    const double c = start.squaredNorm() - norm * norm;
+    const double root = std::sqrt(std::max(0.0, b * b - a * c));
+    // The norm grows or falls towards `to`, and accordingly the greater or the smaller root is the first met.
+    const double t = c < 0 ? (-b + root) / a : (-b - root) / a;
+    return from + std::clamp(t, 0.0, 1.0) * way;
+}
+
+bool folds_around(const Cover& cover, int v, const Point& moved)
+{
+    return std::any_of(cover.around.begin(v), cover.around.end(v), [&](int f) {
+        std::array<Point, 3> corner;
+        for (int k = 0; k < 3; ++k)
+            corner[k] = cover.triangles[f][k] == v ? moved : cover.points[cover.triangles[f][k]];
+        return folded(cover, f, (corner[1] - corner[0]).cross(corner[2] - corner[0]));
+    });
+}
+
+/// Quadric of the planes of the faces around `v` (5.18), in coordinates relative to `v`.
+vcg::math::Quadric<double> vertex_quadric(const Cover& cover, int v)
+{
+    vcg::math::Quadric<double> sum;
+    sum.SetZero();
+    for (const int* f = cover.around.begin(v); f != cover.around.end(v); ++f) {
+        vcg::math::Quadric<double> plane;
+        plane.ByPlane(vcg::Plane3<double, false>(0, to_vcg(cover.normals[*f])));
+        sum += plane;
+    }
+    return sum;
+}
+
+} // namespace
+
+Point selective_candidate(const Point& v, const std::array<Point, 3>& face, const Point& centre, double norm)
+{
+    const auto distance = [&](const Point& p) { return (p - centre).norm(); };
+    const Point near = nearest_in_triangle(face, centre);
+    const Point far = *std::max_element(face.begin(), face.end(),
+                                        [&](const Point& a, const Point& b) { return distance(a) < distance(b); });
+    if (norm < distance(near))
+        return radial_point(near, centre, norm);
+    if (norm > distance(far))
+        return radial_point(far, centre, norm);
+    const Point& goal = norm < distance(v) ? near : far;
+    const Point reached = goal == v ? v : on_the_way(v, goal, centre, norm);
+    return radial_point(reached, centre, norm); // takes off the rounding of the root
+}
+
+Point place_selective(const Cover& cover, int v, const Point& centre, double norm)
+{
+    const vcg::math::Quadric<double> quadric = vertex_quadric(cover, v);
+    const Point& here = cover.points[v];
+    Point best = radial_point(here, centre, norm);
+    double least = std::numeric_limits<double>::infinity();
+    for (const int* f = cover.around.begin(v); f != cover.around.end(v); ++f) {
+        const Triangle& t = cover.triangles[*f];
+        const Point candidate =
+            selective_candidate(here, {cover.points[t[0]], cover.points[t[1]], cover.points[t[2]]}, centre, norm);
+        const double error = quadric.Apply(to_vcg(candidate - here));
+        if (error < least && !folds_around(cover, v, candidate)) {
+            least = error;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+} // namespace vcg_ext

@@ -1,0 +1,110 @@
+#include "sphere.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <ceres/tiny_solver.h>
+#include <cmath>
+
+namespace vcg_ext {
+
+namespace {
+
+/// The three residuals R (v^ - v) with A = R^T R, over two angles.
+///
+/// The frame has the ray to `v` on the equator, far from the poles. Angles and residuals are scaled so that the step is
+/// of order 1 and the energy at Cho's point is 1, whatever the model's size.
+class SphereResidual {
+public:
+    using Scalar = double;
+    enum { NUM_RESIDUALS = 3, NUM_PARAMETERS = 2 };
+
+    SphereResidual(const Point& v, const Point& centre, double norm, const Eigen::Matrix3d& energy)
+        : centre_(centre), norm_(norm)
+    {
+        const double old_norm = (v - centre).norm();
+        step_ = std::abs(norm - old_norm);
+        sign_ = norm < old_norm ? -1 : 1;
+        axes_.col(0) = (v - centre) / old_norm;
+        axes_.col(1) = axes_.col(0).unitOrthogonal();
+        axes_.col(2) = axes_.col(0).cross(axes_.col(1));
+        // The whisper of the identity keeps the factor real where flat neighbours and k3 = 0 leave A singular.
+        const double trace = energy.trace();
+        const Eigen::Matrix3d regular = energy + Eigen::Matrix3d::Identity() * (1e-12 * trace);
+        const double at_cho = axes_.col(0).dot(regular * axes_.col(0));
+        factor_ = Eigen::LLT<Eigen::Matrix3d>(regular / at_cho).matrixU() * axes_;
+    }
+
+    bool operator()(const double* angles, double* residuals, double* jacobian) const
+    {
+        const double unit = step_ / norm_;
+        const double phi = unit * angles[0];
+        const double theta = unit * angles[1];
+        const double cp = std::cos(phi), sp = std::sin(phi), ct = std::cos(theta), st = std::sin(theta);
+        // (v^ - v) / step in the frame. cos cos - 1 written so that small angles do not cancel.
+        const double sp2 = std::sin(phi / 2), st2 = std::sin(theta / 2);
+        const Point move(sign_ - 2 * (st2 * st2 + ct * sp2 * sp2) / unit, ct * sp / unit, st / unit);
+        Eigen::Map<Point>(residuals, 3) = factor_ * move;
+        if (jacobian) {
+            Eigen::Map<Eigen::Matrix<double, 3, 2>> j(jacobian);
+            j.col(0) = factor_ * Point(-ct * sp, ct * cp, 0);
+            j.col(1) = factor_ * Point(-st * cp, -st * sp, ct);
+        }
+        return true;
+    }
+
+    [[nodiscard]] Point point(const Eigen::Vector2d& angles) const
+    {
+        const double phi = step_ / norm_ * angles[0];
+        const double theta = step_ / norm_ * angles[1];
+        return centre_ + norm_ * (axes_ * Point(std::cos(theta) * std::cos(phi), std::cos(theta) * std::sin(phi),
+                                                std::sin(theta)));
+    }
+
+private:
+    Point centre_;
+    double norm_;
+    double step_;
+    double sign_;
+    Eigen::Matrix3d axes_;
+    Eigen::Matrix3d factor_;
+};
+
+} // namespace
+
+Eigen::Matrix3d sphere_energy(const Cover& cover, const Points& current, int v, const SphereWeights& weights)
+{
+    const auto [k1, k2, k3] = weights;
+    Eigen::Matrix3d sum = k3 * Eigen::Matrix3d::Identity();
+    for (const int* f = cover.around.begin(v); f != cover.around.end(v); ++f) {
+        const Point& n = cover.normals[*f];
+        sum += k1 * n * n.transpose();
+        std::array<Point, 3> corner;
+        for (int k = 0; k < 3; ++k) {
+            const int w = cover.triangles[*f][k];
+            corner[k] = w == v ? cover.points[v] : current[w];
+        }
+        const Point now = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+        const double squared = now.squaredNorm();
+        if (squared > 0)
+            sum += (k2 / squared) * now * now.transpose();
+    }
+    return sum;
+}
+
+SphereSolution place_on_sphere(const Point& v, const Point& centre, double norm, const Eigen::Matrix3d& energy)
+{
+    if ((v - centre).norm() == norm)
+        return {v, 0, true};
+    const SphereResidual residual(v, centre, norm, energy);
+    ceres::TinySolver<SphereResidual> solver;
+    solver.options.max_num_iterations = 500;
+    solver.options.parameter_tolerance = 1e-8;
+    solver.options.gradient_tolerance = 1e-8;
+    solver.options.function_tolerance = 1e-12;
+    Eigen::Vector2d angles(0, 0);
+    const auto& summary = solver.Solve(residual, &angles);
+    return {residual.point(angles), summary.iterations,
+            summary.status != ceres::TinySolver<SphereResidual>::HIT_MAX_ITERATIONS};
+}
+
+} // namespace vcg_ext
