@@ -31,7 +31,8 @@ Surface to_surface(const Mesh& mesh)
         }
     for (const Face& face : mesh.face)
         if (!face.IsD())
-            surface.triangles.push_back({index[vcg::tri::Index(mesh, face.cV(0))], index[vcg::tri::Index(mesh, face.cV(1))],
+            surface.triangles.push_back({index[vcg::tri::Index(mesh, face.cV(0))],
+                                         index[vcg::tri::Index(mesh, face.cV(1))],
                                          index[vcg::tri::Index(mesh, face.cV(2))]});
     return surface;
 }

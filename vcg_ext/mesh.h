@@ -8,26 +8,24 @@ namespace vcg_ext {
 class Vertex;
 class Face;
 class Edge;
-struct MeshTypes : vcg::UsedTypes<vcg::Use<Vertex>::AsVertexType, vcg::Use<Face>::AsFaceType, vcg::Use<Edge>::AsEdgeType> {
-};
+struct MeshTypes
+    : vcg::UsedTypes<vcg::Use<Vertex>::AsVertexType, vcg::Use<Face>::AsFaceType, vcg::Use<Edge>::AsEdgeType> {};
 
-/// What an algorithm of vcglib wants beyond positions is switched on where it is used (`Enable...`), as MeshLab does it.
+/// What an algorithm of vcglib wants beyond positions is switched on where it is used (`Enable...`), as MeshLab does
+/// it.
 class Vertex : public vcg::Vertex<MeshTypes, vcg::vertex::InfoOcf, vcg::vertex::Coord3d, vcg::vertex::Normal3d,
                                   vcg::vertex::BitFlags, vcg::vertex::Qualityd, vcg::vertex::VFAdjOcf,
-                                  vcg::vertex::MarkOcf, vcg::vertex::CurvatureDirdOcf> {
-};
+                                  vcg::vertex::MarkOcf, vcg::vertex::CurvatureDirdOcf> {};
 class Face : public vcg::Face<MeshTypes, vcg::face::InfoOcf, vcg::face::VertexRef, vcg::face::Normal3d,
-                              vcg::face::BitFlags, vcg::face::FFAdjOcf, vcg::face::VFAdjOcf, vcg::face::MarkOcf> {
-};
-class Edge : public vcg::Edge<MeshTypes, vcg::edge::VertexRef, vcg::edge::BitFlags> {
-};
+                              vcg::face::BitFlags, vcg::face::FFAdjOcf, vcg::face::VFAdjOcf, vcg::face::MarkOcf> {};
+class Edge : public vcg::Edge<MeshTypes, vcg::edge::VertexRef, vcg::edge::BitFlags> {};
 
 /// The library's VCG mesh, in double. Lives inside the library only (see surface.h).
-class Mesh
-    : public vcg::tri::TriMesh<vcg::vertex::vector_ocf<Vertex>, vcg::face::vector_ocf<Face>, std::vector<Edge>> {
+class Mesh : public vcg::tri::TriMesh<vcg::vertex::vector_ocf<Vertex>, vcg::face::vector_ocf<Face>, std::vector<Edge>> {
 };
 
-/// Fills the empty `mesh` with the surface, vertex by vertex and face by face in the same order; normals and box computed.
+/// Fills the empty `mesh` with the surface, vertex by vertex and face by face in the same order; normals and box
+/// computed.
 void to_mesh(const Surface& surface, Mesh& mesh);
 
 /// The vertices and faces of `mesh` that are not deleted, in order.

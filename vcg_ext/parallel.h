@@ -9,9 +9,9 @@ void set_threads(int count);
 
 /// Calls `work(begin, end)` on the fixed pieces of [0, count) of `chunk` elements each (the last may be shorter).
 ///
-/// The pieces depend on `count` and `chunk` alone. So a result does not depend on the number of threads where each element
-/// is written by itself, or where each piece makes one partial result (number begin / chunk) and these are summed in order.
-/// The first exception of the lowest piece is thrown again.
+/// The pieces depend on `count` and `chunk` alone. So a result does not depend on the number of threads where each
+/// element is written by itself, or where each piece makes one partial result (number begin / chunk) and these are
+/// summed in order. The first exception of the lowest piece is thrown again.
 void for_chunks(int count, int chunk, const std::function<void(int begin, int end)>& work);
 
 /// for_chunks() element by element.

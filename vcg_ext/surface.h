@@ -13,7 +13,8 @@ using Triangle = std::array<int, 3>;
 /// A triangle surface as plain arrays: what a host hands in and gets back.
 ///
 /// Plain on purpose. The two MeshLab generations carry two versions of vcglib, and one program must not see two
-/// definitions of one VCG type. So the hosts' meshes end here, and `vcg_ext` uses one vcglib, the same in both (mesh.h).
+/// definitions of one VCG type. So the hosts' meshes end here, and `vcg_ext` uses one vcglib, the same in both
+/// (mesh.h).
 struct Surface {
     Points points;                   ///< positions
     std::vector<Triangle> triangles; ///< indices into `points`
@@ -45,10 +46,10 @@ struct VertexFaces {
 
 /// A surface in which every position occurs once, and the way back.
 ///
-/// STL files share no vertices and textured meshes repeat them along seams. Vertices at one position count once and move
-/// together, so both stay closed, and a mark survives the way from STL to PLY.
+/// STL files share no vertices and textured meshes repeat them along seams. Vertices at one position count once and
+/// move together, so both stay closed, and a mark survives the way from STL to PLY.
 struct Welded {
-    Surface surface;               ///< sites (distinct positions of referenced vertices) and faces with three distinct ones
+    Surface surface; ///< sites (distinct positions of referenced vertices) and faces with three distinct ones
     std::vector<int> site_of_vertex; ///< per vertex of the original: its site, or -1 where no such face refers to it
 };
 

@@ -57,18 +57,18 @@ struct SolverSummary {
 struct EmbedReport {
     Method method{};
     Statistic statistic{};
-    Bits bits;             ///< what was embedded, padded to the number of carriers
-    double strength = 0;   ///< as used
-    double trim = 0;       ///< as used
+    Bits bits;           ///< what was embedded, padded to the number of carriers
+    double strength = 0; ///< as used
+    double trim = 0;     ///< as used
     int carriers = 0;
-    int samples_min = 0;   ///< vertices in the poorest carrier
+    int samples_min = 0;        ///< vertices in the poorest carrier
     double detection_ratio = 0; ///< of the blind self-check: 1, or embed() throws
     int rounds = 0;
     int moved_vertices = 0;
     int guarded_vertices = 0; ///< vertices that took another point than their best, so that no face folds
     double max_displacement = 0;
     double mrms = 0;
-    double mrms_relative = 0; ///< over the bounding box's diagonal
+    double mrms_relative = 0;              ///< over the bounding box's diagonal
     std::map<std::string, double> seconds; ///< by phase
     std::optional<SolverSummary> solver;   ///< Method::LM only
     std::vector<std::string> warnings;
@@ -83,8 +83,9 @@ struct DetectReport {
     Statistic statistic{};
     double trim = 0;
     Bits bits;
-    std::vector<double> soft; ///< per bit: the statistic's distance from the threshold in standard errors, positive for 1
-    std::vector<int> samples; ///< per bit: vertices in its carrier
+    std::vector<double>
+        soft; ///< per bit: the statistic's distance from the threshold in standard errors, positive for 1
+    std::vector<int> samples;              ///< per bit: vertices in its carrier
     std::optional<double> detection_ratio; ///< matching bits over all; with `expected` only
     std::optional<double> p_value;         ///< exact binomial tail of at least that many matches by chance
     std::optional<bool> present;           ///< p_value below 1e-6
@@ -98,8 +99,8 @@ struct DetectReport {
 /// Ends with a blind detection on the coordinates as they will be stored; carriers that read wrong or weak get a
 /// corrected target and another round.
 ///
-/// \throw Error      on bad input, or where the message could not be read back: says what to do. `surface` is unchanged.
-/// \throw Cancelled  where `progress` returned false. `surface` is unchanged.
+/// \throw Error      on bad input, or where the message could not be read back: says what to do. `surface` is
+/// unchanged. \throw Cancelled  where `progress` returned false. `surface` is unchanged.
 EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& options, const Progress& progress = {});
 
 /// Reads a message with the key alone. Same input, same answer: at any number of threads, on any machine.

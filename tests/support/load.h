@@ -1,0 +1,8 @@
+#pragma once
+#include "vcg_ext/surface.h"
+
+#include <string>
+
+/// One of the OFF meshes that set-up unpacked from Debian's libcgal-demo, such as "bunny00.off"; polygons are cut to
+/// triangles. \throw std::runtime_error where it cannot be read
+[[nodiscard]] vcg_ext::Surface load(const std::string& name);

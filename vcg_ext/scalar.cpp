@@ -1,0 +1,94 @@
+#include "scalar.h"
+
+#include "carrier/histogram.h"
+#include "parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vcg_ext {
+
+namespace {
+
+/// A carrier this far out, as a part of alpha, is strong enough; nearer ones are pushed again.
+constexpr double enough = 0.75;
+
+/// Per carrier the vertices that it holds, in ascending order.
+std::vector<std::vector<int>> members(const Carriers& carriers)
+{
+    std::vector<std::vector<int>> result(carriers.count);
+    for (std::size_t v = 0; v < carriers.label.size(); ++v)
+        if (carriers.label[v] >= 0)
+            result[carriers.label[v]].push_back(static_cast<int>(v));
+    return result;
+}
+
+double side(char bit)
+{
+    return bit ? 1 : -1;
+}
+
+/// The scalar that each vertex is to have. Carriers already beyond their targets are left alone.
+std::vector<double> target_scalars(const Carriers& cover, const std::vector<char>& fixed,
+                                   const std::vector<double>& targets, const std::vector<char>& bits,
+                                   Statistic statistic, double guard)
+{
+    const std::vector<std::vector<int>> vertices = members(cover);
+    const std::vector<double> now = statistics(cover, statistic);
+    std::vector<double> scalars(cover.label.size(), std::numeric_limits<double>::quiet_NaN());
+    for_chunks(cover.count, 1, [&](int k, int) {
+        if (side(bits[k]) * (now[k] - targets[k]) >= 0)
+            return;
+        std::vector<double> values;
+        for (const int v : vertices[k])
+            values.push_back(cover.value[v]);
+        const std::vector<double> mapped = map_histogram(values, statistic, targets[k], guard);
+        for (std::size_t i = 0; i < mapped.size(); ++i)
+            if (!fixed[vertices[k][i]])
+                scalars[vertices[k][i]] = cover.scalar(k, mapped[i]);
+    });
+    return scalars;
+}
+
+} // namespace
+
+ScalarResult embed_scalar(const ScalarMethod& method, Statistic statistic, const std::vector<char>& bits, double alpha,
+                          double guard, int max_rounds, const std::function<Points(const Points&)>& round,
+                          const Progress& progress)
+{
+    Carriers cover = method.cover;
+    const double middle = threshold(statistic);
+    std::vector<double> targets(cover.count);
+    for (int k = 0; k < cover.count; ++k)
+        targets[k] = middle + side(bits[k]) * alpha;
+
+    ScalarResult best;
+    double best_margin = -std::numeric_limits<double>::infinity();
+    for (int r = 1; r <= max_rounds; ++r) {
+        report(progress, 20 + 60 * (r - 1) / max_rounds, "Placing vertices");
+        Points points = method.place(target_scalars(cover, method.fixed, targets, bits, statistic, guard));
+        const Points stored = round(points);
+        const std::vector<double> read = statistics(method.read(stored), statistic);
+        std::vector<double> margins(cover.count);
+        for (int k = 0; k < cover.count; ++k) {
+            margins[k] = side(bits[k]) * (read[k] - middle);
+            if (margins[k] < enough * alpha && (r > 1 || !method.reframe))
+                targets[k] = std::clamp(targets[k] + side(bits[k]) * (alpha - margins[k]), 0.02, 0.98);
+        }
+        const double worst = *std::min_element(margins.begin(), margins.end());
+        if (worst > best_margin) {
+            best_margin = worst;
+            best.points = std::move(points);
+            best.margins = std::move(margins);
+        }
+        best.rounds = r;
+        if (best_margin >= enough * alpha)
+            break;
+        if (method.reframe)
+            cover = method.reframe(stored);
+    }
+    return best;
+}
+
+} // namespace vcg_ext

@@ -1,0 +1,298 @@
+#include "watermark.h"
+
+#include "carrier/shells.h"
+#include "metric/displacement.h"
+#include "metric/statistics.h"
+#include "norms.h"
+#include "parallel.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace vcg_ext {
+
+namespace {
+
+constexpr int most_bits = 1024;
+constexpr double most_trim = 0.45;
+
+/// Seconds since it was last asked.
+class Stopwatch {
+public:
+    double lap()
+    {
+        const auto now = std::chrono::steady_clock::now();
+        const double seconds = std::chrono::duration<double>(now - last_).count();
+        last_ = now;
+        return seconds;
+    }
+
+private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// What the key decides about the carriers of one call.
+struct Secrets {
+    double trim = 0;
+    std::vector<int> carrier_of_bit;
+    Bits mask; ///< XOR-ed into the message: so a wrong key's bits match by even chance, and p is exact
+};
+
+Secrets draw_secrets(const Key& key, const CarrierOptions& options)
+{
+    Secrets secrets;
+    secrets.trim = options.trim;
+    if (options.trim < 0)
+        secrets.trim = static_cast<double>(key.stream("epsilon").below(15001)) / 1e5; // thesis 5.2.1: in [0, 0.15]
+    secrets.carrier_of_bit = key.stream("carrier-order").permutation(options.bits);
+    Stream mask = key.stream("bit-mask");
+    for (int i = 0; i < options.bits; ++i)
+        secrets.mask.push_back(static_cast<std::uint8_t>(mask.below(2)));
+    return secrets;
+}
+
+std::string text(double number)
+{
+    std::string digits = std::to_string(number);
+    digits.erase(digits.find_last_not_of('0') + 1);
+    if (digits.back() == '.')
+        digits.pop_back();
+    return digits;
+}
+
+void check_options(const CarrierOptions& options)
+{
+    if (options.bits < 1 || options.bits > most_bits)
+        throw Error("Bits is " + std::to_string(options.bits) + ", but must lie between 1 and " +
+                    std::to_string(most_bits) + ".");
+    if (options.trim > most_trim || std::isnan(options.trim))
+        throw Error("Trim is " + text(options.trim) + ", but must lie between 0 and " + text(most_trim) +
+                    ", or be -1 to be drawn from the key.");
+}
+
+double checked_alpha(double strength, Statistic statistic)
+{
+    const double alpha = strength == 0 ? 0.1 : strength;
+    const double most = statistic == Statistic::Mean ? 0.45 : 0.3;
+    if (!(alpha > 0 && alpha <= most))
+        throw Error("Strength is " + text(alpha) + ", but must lie above 0 and up to " + text(most) +
+                    " for this statistic, or be 0 for the default of 0.1.");
+    return alpha;
+}
+
+void check_surface(const Surface& surface)
+{
+    const auto not_finite =
+        std::count_if(surface.points.begin(), surface.points.end(), [](const Point& p) { return !p.allFinite(); });
+    if (not_finite > 0)
+        throw Error(std::to_string(not_finite) + " of the " + std::to_string(surface.points.size()) +
+                    " vertices have coordinates that are no finite numbers. Remove these vertices first.");
+    if (surface.triangles.empty())
+        throw Error("The mesh has no faces, so it has no surface to mark. Reconstruct the surface first.");
+}
+
+Welded checked_weld(const Surface& surface)
+{
+    check_surface(surface);
+    Welded welded = weld(surface);
+    if (welded.surface.triangles.empty())
+        throw Error(
+            "No face of the mesh has three distinct corners. Check its coordinates, or reconstruct the surface.");
+    return welded;
+}
+
+Points rounded_to_float(const Points& points)
+{
+    Points result(points.size());
+    for_each_index(static_cast<int>(points.size()), [&](int v) { result[v] = points[v].cast<float>().cast<double>(); });
+    return result;
+}
+
+/// Part of a carrier that rounding to float can move a value by, with room to spare.
+double float_guard(const Points& points, const Carriers& carriers)
+{
+    double largest = 0;
+    for (const Point& p : points)
+        largest = std::max(largest, p.cwiseAbs().maxCoeff());
+    return 4 * std::numeric_limits<float>::epsilon() * largest / carriers.width;
+}
+
+int most_that_fills(const Surface& surface, double trim, int bits)
+{
+    for (int fewer = bits - 1; fewer > 0; --fewer) {
+        const std::vector<int> count = samples(shells(surface.points, surface.triangles, trim, fewer).carriers);
+        if (*std::min_element(count.begin(), count.end()) > 0)
+            return fewer;
+    }
+    return 0;
+}
+
+/// The bits to be written, by carrier.
+std::vector<char> carrier_bits(const Bits& message, const Secrets& secrets)
+{
+    std::vector<char> bits(message.size());
+    for (std::size_t i = 0; i < message.size(); ++i)
+        bits[secrets.carrier_of_bit[i]] = static_cast<char>(message[i] ^ secrets.mask[i]);
+    return bits;
+}
+
+std::string list_wrong_bits(const std::vector<double>& margins, const Secrets& secrets)
+{
+    std::string list;
+    for (std::size_t i = 0; i < margins.size(); ++i)
+        if (margins[secrets.carrier_of_bit[i]] <= 0)
+            list += (list.empty() ? "" : ", ") + std::to_string(i);
+    return list;
+}
+
+void read_bits(const Carriers& carriers, const Secrets& secrets, DetectReport& report)
+{
+    const std::vector<int> count = samples(carriers);
+    const std::vector<double> read = statistics(carriers, report.statistic);
+    const double middle = threshold(report.statistic);
+    const int bits = static_cast<int>(secrets.mask.size());
+    std::vector<int> bit_of_carrier(bits);
+    for (int i = 0; i < bits; ++i) {
+        const int k = secrets.carrier_of_bit[i];
+        const double soft = count[k] > 0 ? (read[k] - middle) / standard_error(report.statistic, count[k]) : 0;
+        report.bits.push_back(static_cast<std::uint8_t>((soft > 0) ^ secrets.mask[i]));
+        report.soft.push_back(secrets.mask[i] ? -soft : soft);
+        report.samples.push_back(count[k]);
+        bit_of_carrier[k] = i;
+    }
+    report.carrier_of_vertex = carriers.label;
+    for (int& label : report.carrier_of_vertex)
+        if (label >= 0)
+            label = bit_of_carrier[label];
+}
+
+void judge(const Bits& expected, DetectReport& report)
+{
+    const int bits = static_cast<int>(report.bits.size());
+    const Bits wanted = pad_message(expected, bits);
+    int matches = 0;
+    for (int i = 0; i < bits; ++i)
+        matches += wanted[i] == report.bits[i];
+    report.detection_ratio = static_cast<double>(matches) / bits;
+    report.p_value = binomial_tail(bits, matches);
+    report.present = *report.p_value < 1e-6;
+}
+
+} // namespace
+
+const char* name(Method method)
+{
+    constexpr const char* names[] = {"L-M", "QSP", "Cho", "Geodesic", "Spectral"};
+    return names[static_cast<int>(method)];
+}
+
+const char* name(Statistic statistic)
+{
+    return statistic == Statistic::Mean ? "Mean" : "Variance";
+}
+
+EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, const Progress& progress)
+{
+    Stopwatch watch;
+    EmbedOptions options = wanted;
+    if (options.bits == 0)
+        options.bits = static_cast<int>(options.message.size());
+    check_options(options);
+    const double alpha = checked_alpha(options.strength, options.statistic);
+    EmbedReport result;
+    result.method = options.method;
+    result.statistic = options.statistic;
+    result.bits = pad_message(options.message, options.bits);
+    result.strength = alpha;
+    result.carriers = options.bits;
+    const Secrets secrets = draw_secrets(key, options);
+    result.trim = secrets.trim;
+
+    report(progress, 0, "Finding carriers");
+    const Welded welded = checked_weld(surface);
+    const ScalarMethod method = norm_method(welded.surface, options, secrets.trim, result);
+    const std::vector<int> count = samples(method.cover);
+    result.samples_min = *std::min_element(count.begin(), count.end());
+    if (result.samples_min == 0) {
+        const int fewer = most_that_fills(welded.surface, secrets.trim, options.bits);
+        throw Error(std::to_string(std::count(count.begin(), count.end(), 0)) + " of the " +
+                    std::to_string(options.bits) + " carriers hold no vertex. This mesh carries " +
+                    std::to_string(fewer) + " bits with this method and key; shorten the message or use a finer mesh.");
+    }
+    const double guard = float_guard(welded.surface.points, method.cover);
+    bool as_float = true;
+    if (guard > 0.2) {
+        if (options.storage == Storage::Float)
+            throw Error(
+                "The mesh lies so far from the origin, or has so little range, that float coordinates are coarser than "
+                "its carriers. Move it to the origin, or set fewer bits.");
+        as_float = false;
+        result.warnings.emplace_back(
+            "The mark is finer than float coordinates: save to a file format that holds doubles, or "
+            "move the mesh to the origin first.");
+    }
+    result.seconds["carriers"] = watch.lap();
+
+    const auto round = [as_float](const Points& points) { return as_float ? rounded_to_float(points) : points; };
+    ScalarResult placed = embed_scalar(method, options.statistic, carrier_bits(result.bits, secrets), alpha,
+                                       std::max(as_float ? guard : 0, 1e-6), options.max_rounds, round, progress);
+    result.rounds = placed.rounds;
+    const std::string wrong = list_wrong_bits(placed.margins, secrets);
+    if (!wrong.empty())
+        throw Error("These bits could not be read back: " + wrong +
+                    ". Set fewer bits, or use a finer mesh or another method.");
+    result.seconds["placement"] = watch.lap();
+
+    report(progress, 85, "Checking blind");
+    Surface marked{unweld(surface.points, welded.site_of_vertex, placed.points), surface.triangles};
+    if (options.storage == Storage::Float)
+        marked.points = rounded_to_float(marked.points);
+    DetectOptions blind;
+    static_cast<CarrierOptions&>(blind) = options;
+    blind.expected = result.bits;
+    result.detection_ratio = *detect(marked, key, blind).detection_ratio;
+    if (result.detection_ratio < 1)
+        throw Error("The blind self-check did not read every bit back. Set fewer bits, or use a finer mesh.");
+    result.seconds["check"] = watch.lap();
+
+    report(progress, 95, "Measuring");
+    result.moved_vertices = moved_count(surface.points, marked.points);
+    result.max_displacement = max_displacement(surface.points, marked.points);
+    result.mrms = local_mrms(welded.surface.points, placed.points, welded.surface.triangles,
+                             vertex_faces(static_cast<int>(placed.points.size()), welded.surface.triangles));
+    result.mrms_relative = result.mrms / bounding_diagonal(welded.surface);
+    result.seconds["measure"] = watch.lap();
+    report(progress, 100, "Done");
+    surface.points = std::move(marked.points);
+    return result;
+}
+
+DetectReport detect(const Surface& surface, const Key& key, const DetectOptions& options, const Progress& progress)
+{
+    Stopwatch watch;
+    check_options(options);
+    DetectReport result;
+    result.method = options.method;
+    result.statistic = options.statistic;
+    const Secrets secrets = draw_secrets(key, options);
+    result.trim = secrets.trim;
+    report(progress, 0, "Finding carriers");
+    const Welded welded = checked_weld(surface);
+    report(progress, 30, "Reading");
+    read_bits(shells(welded.surface.points, welded.surface.triangles, secrets.trim, options.bits).carriers, secrets,
+              result);
+    std::vector<int> carrier_of_vertex(surface.points.size(), -1);
+    for (std::size_t v = 0; v < carrier_of_vertex.size(); ++v)
+        if (welded.site_of_vertex[v] >= 0)
+            carrier_of_vertex[v] = result.carrier_of_vertex[welded.site_of_vertex[v]];
+    result.carrier_of_vertex = std::move(carrier_of_vertex);
+    if (options.expected)
+        judge(*options.expected, result);
+    result.seconds["detection"] = watch.lap();
+    report(progress, 100, "Done");
+    return result;
+}
+
+} // namespace vcg_ext
