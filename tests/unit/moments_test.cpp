@@ -5,8 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace
-{
+namespace {
 
 using namespace vcg_ext;
 

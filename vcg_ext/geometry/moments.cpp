@@ -8,11 +8,9 @@
 #include <cmath>
 #include <utility>
 
-namespace vcg_ext
-{
+namespace vcg_ext {
 
-namespace
-{
+namespace {
 
 // The integral of the k-th power of a linear function over a simplex of d dimensions is its measure times
 // k! d! / (k + d)! times the complete homogeneous polynomial h_k of the function's values at the corners. A solid is

@@ -1,8 +1,7 @@
 #pragma once
 #include "../surface.h"
 
-namespace vcg_ext
-{
+namespace vcg_ext {
 
 /// The coordinate system that a body itself defines, whatever its position, rotation and scale.
 struct Frame {
