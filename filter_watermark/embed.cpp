@@ -1,0 +1,67 @@
+#include "layer.h"
+#include "report.h"
+#include "shared_parameters.h"
+
+namespace {
+
+constexpr const char* info =
+    "Hides a message in the vertex positions of the mesh, so that it cannot be seen. <b>Watermark: Detect</b> reads it "
+    "back with "
+    "the key alone, without the original, also after moderate noise, smoothing, simplification, quantization, and any "
+    "rotation, "
+    "translation or uniform scale.<br>"
+    "The whole mesh carries the mark: a selection is ignored, and kept. Only positions change (and normals with them). "
+    "Vertices "
+    "at one position move together, so seams stay closed. The filter ends with a blind detection of its own and fails, "
+    "with the "
+    "mesh unchanged, where a bit would not read back.<br>"
+    "Keep the key secret, and note Method, Statistic, Bits and Trim: detection needs the same.<br>"
+    "See:<br><i>Ming Luo, Adrian G. Bors</i><br><b>\"Surface-preserving robust watermarking of 3-D shapes\"</b><br>"
+    "IEEE Transactions on Image Processing 20(10), 2011<br>"
+    "<i>Jae-Won Cho, R&eacute;my Prost, Ho-Youl Jung</i><br><b>\"An oblivious watermarking for 3-D polygonal meshes "
+    "using "
+    "distribution of vertex norms\"</b><br>IEEE Transactions on Signal Processing 55(1), 2007";
+
+RichParameterList parameters(const MeshDocument&)
+{
+    RichParameterList list;
+    list.addParam(RichString(
+        "Message", "", "Message",
+        "Plain text, or <i>hex:C0FFEE</i>, or <i>bits:0110</i>. It must fit into Bits; what is left is zero."));
+    add_carrier_parameters(
+        list, "Number of carriers, one for each bit, 1 to 1024; 0 takes the message's length. Fewer are more robust.");
+    list.addParam(
+        RichFloat("Strength", 0, "Strength",
+                  "Stronger marks survive more and show more. 0 is the method's default: 0.1, and 15 for Spectral."));
+    add_report_parameter(list);
+    return list;
+}
+
+Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext::Progress& progress)
+{
+    MeshModel& layer = current_layer_or_error(document);
+    vcg_ext::EmbedOptions options;
+    read_carrier_parameters(values, options);
+    options.message = vcg_ext::parse_message(values.getString("Message").toStdString());
+    options.strength = read_number(values, "Strength");
+    options.storage = sizeof(Scalarm) == sizeof(float) ? vcg_ext::Storage::Float : vcg_ext::Storage::Double;
+    const vcg_ext::Key key = read_key(values);
+    ReportFile file(values.getSaveFileName("Report"));
+
+    vcg_ext::Surface surface = read_surface(layer.cm);
+    const Json report = to_json(embed(surface, key, options, progress));
+    file.write(report);
+    write_positions(layer, surface.points);
+    return report;
+}
+
+} // namespace
+
+const Filter embed_filter = {"Watermark: Embed",
+                             "apply_coord_watermark",
+                             HostInterface::Smoothing,
+                             HostInterface::SINGLE_MESH,
+                             MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL | MeshModel::MM_FACENORMAL,
+                             info,
+                             parameters,
+                             run};

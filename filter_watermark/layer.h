@@ -1,0 +1,17 @@
+#pragma once
+#include "host.h"
+
+#include <vcg_ext/surface.h>
+
+/// The current layer. \throw vcg_ext::Error where the document has none
+MeshModel& current_layer_or_error(MeshDocument& document);
+
+/// The layer's vertices and faces that are not deleted, in order, without its matrix.
+vcg_ext::Surface read_surface(const CMeshO& mesh);
+
+/// Gives the vertices that are not deleted new positions, in order. All else stays; normals and box follow.
+void write_positions(MeshModel& layer, const vcg_ext::Points& points);
+
+/// Gives the vertices that are not deleted a quality each, in order, and colours from it: a colour of its own for each
+/// whole number, grey for -1.
+void write_classes(MeshModel& layer, const std::vector<int>& class_of_vertex);

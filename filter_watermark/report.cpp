@@ -1,0 +1,144 @@
+#include "report.h"
+
+#include <algorithm>
+
+Json to_json(const vcg_ext::EmbedReport& report)
+{
+    Json json = {
+        {"method", name(report.method)},
+        {"statistic", name(report.statistic)},
+        {"bits", vcg_ext::bit_string(report.bits)},
+        {"strength", report.strength},
+        {"trim", report.trim},
+        {"carriers", report.carriers},
+        {"samples_min", report.samples_min},
+        {"detection_ratio", report.detection_ratio},
+        {"rounds", report.rounds},
+        {"moved_vertices", report.moved_vertices},
+        {"guarded_vertices", report.guarded_vertices},
+        {"max_displacement", report.max_displacement},
+        {"mrms", report.mrms},
+        {"mrms_relative", report.mrms_relative},
+        {"seconds", report.seconds},
+    };
+    if (report.solver) {
+        json["solver"] = {{"mean_iterations", report.solver->mean_iterations},
+                          {"max_iterations", report.solver->max_iterations},
+                          {"not_converged", report.solver->not_converged}};
+    }
+    json["warnings"] = report.warnings;
+    return json;
+}
+
+Json to_json(const vcg_ext::DetectReport& report)
+{
+    Json json = {
+        {"method", name(report.method)},
+        {"statistic", name(report.statistic)},
+        {"bits", vcg_ext::bit_string(report.bits)},
+        {"message", vcg_ext::format_message(report.bits)},
+        {"trim", report.trim},
+        {"soft", report.soft},
+        {"samples", report.samples},
+    };
+    if (report.detection_ratio)
+        json["detection_ratio"] = *report.detection_ratio;
+    if (report.p_value)
+        json["p_value"] = *report.p_value;
+    if (report.present)
+        json["present"] = *report.present;
+    json["seconds"] = report.seconds;
+    json["warnings"] = report.warnings;
+    return json;
+}
+
+namespace {
+
+bool is_vector(const Json& value)
+{
+    return value.is_array() && !value.empty() &&
+           std::all_of(value.begin(), value.end(), [](const Json& element) { return element.is_number(); });
+}
+
+QString to_line(const Json& value)
+{
+    if (value.is_string())
+        return QString::fromStdString(value);
+    if (value.is_number_float())
+        return QString::number(value.get<double>(), 'g', 6);
+    if (is_vector(value)) {
+        const auto numbers = value.get<std::vector<double>>();
+        const auto [least, most] = std::minmax_element(numbers.begin(), numbers.end());
+        return QString("%1 values, %2 to %3").arg(numbers.size()).arg(*least, 0, 'g', 4).arg(*most, 0, 'g', 4);
+    }
+    return QString::fromStdString(value.dump());
+}
+
+} // namespace
+
+std::map<std::string, HostValue> to_values(const Json& results)
+{
+    std::map<std::string, HostValue> values;
+    for (const auto& [name, value] : results.items()) {
+        if (value.is_object()) {
+            for (const auto& [part, number] : value.items())
+                values[name + "_" + part] = number.get<double>();
+        } else if (name == "warnings") {
+            values[name] = int(value.size());
+        } else if (name == "bits") {
+            std::vector<double> bits;
+            for (const char digit : value.get_ref<const std::string&>())
+                bits.push_back(digit - '0');
+            values[name] = bits;
+        } else if (value.is_boolean()) {
+            values[name] = value.get<bool>();
+        } else if (value.is_number_integer()) {
+            values[name] = value.get<int>();
+        } else if (value.is_number()) {
+            values[name] = value.get<double>();
+        } else if (is_vector(value)) {
+            values[name] = value.get<std::vector<double>>();
+        }
+    }
+    return values;
+}
+
+QStringList to_lines(const Json& results)
+{
+    QStringList lines;
+    for (const auto& [name, value] : results.items()) {
+        if (name == "warnings")
+            continue;
+        if (value.is_object()) {
+            for (const auto& [part, number] : value.items())
+                lines += QString("%1 %2: %3").arg(name.c_str(), part.c_str(), to_line(number));
+        } else {
+            lines += QString("%1: %2").arg(name.c_str(), to_line(value));
+        }
+    }
+    return lines;
+}
+
+ReportFile::ReportFile(const QString& path) : file_(path)
+{
+    if (!path.isEmpty() && !file_.open(QIODevice::WriteOnly))
+        fail();
+}
+
+void ReportFile::write(const Json& results)
+{
+    if (!file_.isOpen())
+        return;
+    const std::string text = results.dump(2) + "\n";
+    file_.write(text.data(), qint64(text.size()));
+    if (!file_.commit())
+        fail();
+}
+
+void ReportFile::fail() const
+{
+    throw vcg_ext::Error("The report cannot be written to '" + file_.fileName().toStdString() +
+                         "': " + file_.errorString().toStdString() +
+                         ". Name a file in a folder that exists and that you may write to, or leave Report empty. "
+                         "The mesh is unchanged.");
+}

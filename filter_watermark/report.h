@@ -1,0 +1,31 @@
+#pragma once
+#include "filter.h"
+
+#include <QSaveFile>
+#include <vcg_ext/watermark.h>
+
+/// The results under the names that scripts rely on.
+Json to_json(const vcg_ext::EmbedReport& report);
+Json to_json(const vcg_ext::DetectReport& report);
+
+/// The same for pymeshlab's dict, which cannot take texts: `bits` becomes a vector of 0 and 1, `warnings` their count,
+/// `seconds` and `solver` a number for each part (`seconds_placement`). Other texts are in the log and the report only.
+std::map<std::string, HostValue> to_values(const Json& results);
+
+/// The same for the log: a line each, long lists by their range. Warnings are left out.
+QStringList to_lines(const Json& results);
+
+/// A report on its way to a file. Nothing of it is seen until all of it is there.
+class ReportFile {
+public:
+    /// \param path empty for no file  \throw Error where it cannot be written
+    explicit ReportFile(const QString& path);
+
+    /// Puts the file in its place. \throw Error where the disk is full, say
+    void write(const Json& results);
+
+private:
+    [[noreturn]] void fail() const;
+
+    QSaveFile file_;
+};
