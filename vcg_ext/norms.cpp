@@ -14,10 +14,6 @@ namespace vcg_ext {
 
 namespace {
 
-/// Jacobi sweeps of the sphere placement. The first sees the neighbours on the cover, the second where the first put
-/// them; a third changes the distortion by under one part in a hundred (README).
-constexpr int sweeps = 2;
-
 struct Task {
     const Cover& cover;
     Point centre;
@@ -36,14 +32,14 @@ Points place_each(const Task& task, const Place& place)
     return points;
 }
 
-Points place_sphere(const Task& task, const SphereWeights& weights, SolverSummary& summary)
+Points place_sphere(const Task& task, const EmbedOptions& options, SolverSummary& summary)
 {
     std::vector<int> iterations(task.movable.size(), 0);
     std::vector<char> converged(task.movable.size(), 1);
     Points current = task.cover.points;
-    for (int sweep = 0; sweep < sweeps; ++sweep)
+    for (int sweep = 0; sweep < options.sphere_sweeps; ++sweep)
         current = place_each(task, [&](int i, int v, double norm) {
-            const Eigen::Matrix3d energy = sphere_energy(task.cover, current, v, weights);
+            const Eigen::Matrix3d energy = sphere_energy(task.cover, current, v, options.sphere_weights);
             const SphereSolution solution = place_on_sphere(task.cover.points[v], task.centre, norm, energy);
             iterations[i] = solution.iterations;
             converged[i] = solution.converged;
@@ -61,7 +57,7 @@ Points place_sphere(const Task& task, const SphereWeights& weights, SolverSummar
 Points place_best(const Task& task, const EmbedOptions& options, EmbedReport& report)
 {
     if (options.method == Method::LM)
-        return place_sphere(task, options.sphere_weights, report.solver.emplace());
+        return place_sphere(task, options, report.solver.emplace());
     if (options.method == Method::QSP)
         return place_each(task,
                           [&](int, int v, double norm) { return place_selective(task.cover, v, task.centre, norm); });

@@ -45,6 +45,9 @@ struct EmbedOptions : CarrierOptions {
     Storage storage = Storage::Float; ///< where it is Double, the mark is still checked after rounding to float
     int max_rounds = 10;              ///< rounds of correction before embedding gives up
     std::array<double, 3> sphere_weights = {0.49, 0.49, 0.02}; ///< k1, k2, k3 of (5.24), for Method::LM
+    /// Jacobi sweeps of Method::LM: the first sees the neighbours on the cover, the next where the one before put them.
+    /// More than one gains nothing: MRMS grows by 0 to 12 % (tests/benchmark/norm_methods).
+    int sphere_sweeps = 1;
 };
 
 /// Iterations of Method::LM per moved vertex.

@@ -1,0 +1,70 @@
+#include "support/load.h"
+#include "vcg_ext/key/key.h"
+#include "vcg_ext/placement/fold_guard.h"
+
+#include <gtest/gtest.h>
+
+using namespace vcg_ext;
+
+namespace {
+
+/// Moves that fold about a third of the faces: up to a whole edge length, from a keyed stream.
+Points shaken(const Surface& surface, double length)
+{
+    Stream stream = Key("shaken").stream("test");
+    Points points = surface.points;
+    for (Point& p : points)
+        for (int axis = 0; axis < 3; ++axis)
+            p[axis] += length * (static_cast<double>(stream.below(2001)) / 1000 - 1);
+    return points;
+}
+
+TEST(GuardFolds, LeavesNoFaceFolded)
+{
+    const Surface surface = load("fandisk.off");
+    const Cover cover(surface);
+    Points points = shaken(surface, 0.01 * bounding_diagonal(surface));
+    const Points best = points;
+    const auto retreat = [&](int v, int step) -> Point {
+        return surface.points[v] + (best[v] - surface.points[v]) / (1 << step);
+    };
+    ASSERT_FALSE(folded_faces(cover, points).empty());
+    const std::vector<int> step = guard_folds(cover, points, 6, retreat);
+    EXPECT_TRUE(folded_faces(cover, points).empty());
+
+    int untouched = 0;
+    for (int v = 0; v < static_cast<int>(points.size()); ++v) {
+        const Point expected = step[v] == 0 ? best[v] : step[v] == 6 ? surface.points[v] : retreat(v, step[v]);
+        EXPECT_EQ(points[v], expected);
+        untouched += step[v] == 0;
+    }
+    EXPECT_GT(untouched, 0);
+}
+
+TEST(GuardFolds, LeavesGoodMovesAlone)
+{
+    const Surface surface = load("fandisk.off");
+    const Cover cover(surface);
+    Points points = surface.points;
+    for (Point& p : points)
+        p *= 1.1;
+    const Points scaled = points;
+    const auto never = [](int, int) -> Point { throw std::logic_error("no step is due"); };
+    const std::vector<int> step = guard_folds(cover, points, 6, never);
+    EXPECT_EQ(points, scaled);
+    EXPECT_EQ(step, std::vector<int>(points.size(), 0));
+}
+
+TEST(Folded, SeesATurnAndAFlatteningButNoFaceWithoutAnArea)
+{
+    const Surface surface{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}}, {{0, 1, 2}, {0, 1, 3}}};
+    const Cover cover(surface);
+    const double cos59 = 0.515, cos61 = 0.485;
+    EXPECT_FALSE(folded(cover, 0, Point(std::sqrt(1 - cos59 * cos59), 0, cos59)));
+    EXPECT_TRUE(folded(cover, 0, Point(std::sqrt(1 - cos61 * cos61), 0, cos61)));
+    EXPECT_FALSE(folded(cover, 0, Point(0, 0, 0.06)));
+    EXPECT_TRUE(folded(cover, 0, Point(0, 0, 0.04)));
+    EXPECT_FALSE(folded(cover, 1, Point(0, 0, -1)));
+}
+
+} // namespace

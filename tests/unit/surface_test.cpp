@@ -1,0 +1,92 @@
+#include "support/load.h"
+#include "vcg_ext/mesh.h"
+#include "vcg_ext/surface.h"
+
+#include <gtest/gtest.h>
+#include <set>
+
+using namespace vcg_ext;
+
+namespace {
+
+/// As an STL file has it: three vertices a face, none shared.
+Surface soup(const Surface& surface)
+{
+    Surface result;
+    for (const Triangle& t : surface.triangles) {
+        const int first = static_cast<int>(result.points.size());
+        for (const int v : t)
+            result.points.push_back(surface.points[v]);
+        result.triangles.push_back({first, first + 1, first + 2});
+    }
+    return result;
+}
+
+TEST(Weld, BringsASoupBackToTheSolid)
+{
+    const Surface fandisk = load("fandisk.off");
+    const Surface torn = soup(fandisk);
+    const Welded welded = weld(torn);
+    EXPECT_EQ(welded.surface.points.size(), fandisk.points.size());
+    ASSERT_EQ(welded.surface.triangles.size(), fandisk.triangles.size());
+    for (std::size_t f = 0; f < fandisk.triangles.size(); ++f)
+        for (int k = 0; k < 3; ++k)
+            EXPECT_EQ(welded.surface.points[welded.surface.triangles[f][k]], fandisk.points[fandisk.triangles[f][k]]);
+    // Closed: every directed edge has its opposite.
+    std::set<std::pair<int, int>> edges;
+    for (const Triangle& t : welded.surface.triangles)
+        for (int k = 0; k < 3; ++k)
+            edges.insert({t[k], t[(k + 1) % 3]});
+    for (const auto& [a, b] : edges)
+        EXPECT_TRUE(edges.count({b, a}));
+}
+
+TEST(Weld, LeavesOutWhatNoFaceNeeds)
+{
+    const Surface surface{{{0, 0, 0}, {1, 0, 0}, {-0.0, 0, 0}, {0, 1, 0}, {5, 5, 5}},
+                          {{0, 1, 3}, {0, 1, 2}, {2, 1, 3}}};
+    const Welded welded = weld(surface);
+    EXPECT_EQ(welded.site_of_vertex, (std::vector<int>{0, 1, 0, 2, -1}));
+    EXPECT_EQ(welded.surface.points.size(), 3u);
+    EXPECT_EQ(welded.surface.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 1, 2}}));
+}
+
+TEST(Unweld, MovesVerticesAtOnePositionTogether)
+{
+    const Surface torn = soup(load("cube.off"));
+    const Welded welded = weld(torn);
+    Points moved = welded.surface.points;
+    for (Point& p : moved)
+        p *= 1.01;
+    const Points points = unweld(torn.points, welded.site_of_vertex, moved);
+    for (std::size_t v = 0; v < points.size(); ++v)
+        EXPECT_EQ(points[v], torn.points[v] * 1.01);
+}
+
+TEST(VertexFaces, ListsEveryCornerOnceInOrder)
+{
+    const Surface surface = load("fandisk.off");
+    const VertexFaces around = vertex_faces(static_cast<int>(surface.points.size()), surface.triangles);
+    std::size_t corners = 0;
+    for (int v = 0; v < static_cast<int>(surface.points.size()); ++v) {
+        EXPECT_TRUE(std::is_sorted(around.begin(v), around.end(v)));
+        for (const int* f = around.begin(v); f != around.end(v); ++f) {
+            const Triangle& t = surface.triangles[*f];
+            EXPECT_TRUE(t[0] == v || t[1] == v || t[2] == v);
+            ++corners;
+        }
+    }
+    EXPECT_EQ(corners, 3 * surface.triangles.size());
+}
+
+TEST(Mesh, HoldsTheSurfaceInTheSameOrder)
+{
+    const Surface surface = load("bunny00.off");
+    Mesh mesh;
+    to_mesh(surface, mesh);
+    const Surface back = to_surface(mesh);
+    EXPECT_EQ(back.points, surface.points);
+    EXPECT_EQ(back.triangles, surface.triangles);
+}
+
+} // namespace
