@@ -14,6 +14,9 @@ namespace {
 /// A carrier this far out, as a part of alpha, is strong enough; nearer ones are pushed again.
 constexpr double enough = 0.75;
 
+/// The target of a vertex that does not move.
+constexpr double stay = std::numeric_limits<double>::quiet_NaN();
+
 /// Per carrier the vertices that it holds, in ascending order.
 std::vector<std::vector<int>> members(const Carriers& carriers)
 {
@@ -36,7 +39,7 @@ std::vector<double> target_scalars(const Carriers& cover, const std::vector<char
 {
     const std::vector<std::vector<int>> vertices = members(cover);
     const std::vector<double> now = statistics(cover, statistic);
-    std::vector<double> scalars(cover.label.size(), std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> scalars(cover.label.size(), stay);
     for_chunks(cover.count, 1, [&](int k, int) {
         if (side(bits[k]) * (now[k] - targets[k]) >= 0)
             return;
@@ -63,20 +66,31 @@ ScalarResult embed_scalar(const ScalarMethod& method, Statistic statistic, const
     for (int k = 0; k < cover.count; ++k)
         targets[k] = middle + side(bits[k]) * alpha;
 
-    ScalarResult best;
+    const auto read_margins = [&](const Carriers& carriers) {
+        std::vector<double> margins = statistics(carriers, statistic);
+        for (int k = 0; k < carriers.count; ++k)
+            margins[k] = side(bits[k]) * (margins[k] - middle);
+        return margins;
+    };
+    const auto worst_of = [](const std::vector<double>& margins) {
+        return *std::min_element(margins.begin(), margins.end());
+    };
+
+    ScalarResult best{{}, read_margins(cover), 0};
+    if (worst_of(best.margins) >= enough * alpha) { // the mark is there already
+        best.points = method.place(std::vector<double>(cover.label.size(), stay));
+        return best;
+    }
     double best_margin = -std::numeric_limits<double>::infinity();
     for (int r = 1; r <= max_rounds; ++r) {
         report(progress, 20 + 60 * (r - 1) / max_rounds, "Placing vertices");
         Points points = method.place(target_scalars(cover, method.fixed, targets, bits, statistic, guard));
         const Points stored = round(points);
-        const std::vector<double> read = statistics(method.read(stored), statistic);
-        std::vector<double> margins(cover.count);
-        for (int k = 0; k < cover.count; ++k) {
-            margins[k] = side(bits[k]) * (read[k] - middle);
+        std::vector<double> margins = read_margins(method.read(stored));
+        for (int k = 0; k < cover.count; ++k)
             if (margins[k] < enough * alpha && (r > 1 || !method.reframe))
                 targets[k] = std::clamp(targets[k] + side(bits[k]) * (alpha - margins[k]), 0.02, 0.98);
-        }
-        const double worst = *std::min_element(margins.begin(), margins.end());
+        const double worst = worst_of(margins);
         if (worst > best_margin) {
             best_margin = worst;
             best.points = std::move(points);

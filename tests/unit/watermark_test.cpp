@@ -1,0 +1,346 @@
+#include "support/load.h"
+#include "vcg_ext/parallel.h"
+#include "vcg_ext/placement/cover.h"
+#include "vcg_ext/watermark.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+#include <numeric>
+
+using namespace vcg_ext;
+
+namespace {
+
+const Key& test_key()
+{
+    static const Key key("watermark_test");
+    return key;
+}
+
+EmbedOptions options_for(Method method, Statistic statistic)
+{
+    EmbedOptions options;
+    options.method = method;
+    options.statistic = statistic;
+    options.message = parse_message("museum");
+    return options;
+}
+
+DetectReport read(const Surface& surface, const EmbedOptions& embedded, const Key& key = test_key())
+{
+    DetectOptions options;
+    static_cast<CarrierOptions&>(options) = embedded;
+    options.expected = embedded.message;
+    return detect(surface, key, options);
+}
+
+struct Case {
+    Method method;
+    Statistic statistic;
+};
+
+class EveryMethod : public testing::TestWithParam<Case> {
+protected:
+    EmbedOptions options = options_for(GetParam().method, GetParam().statistic);
+};
+
+TEST_P(EveryMethod, ReadsItsMessageBack)
+{
+    for (const char* mesh : {"bunny00.off", "fandisk.off"}) {
+        const Surface cover = load(mesh);
+        Surface stego = cover;
+        const EmbedReport report = embed(stego, test_key(), options);
+        EXPECT_EQ(report.detection_ratio, 1);
+        EXPECT_EQ(stego.triangles, cover.triangles);
+
+        const DetectReport found = read(stego, options);
+        EXPECT_EQ(found.bits, report.bits);
+        EXPECT_EQ(format_message(found.bits), "museum");
+        EXPECT_EQ(*found.detection_ratio, 1);
+        EXPECT_NEAR(*found.p_value, std::ldexp(1.0, -64), std::ldexp(1.0, -100));
+        EXPECT_TRUE(*found.present);
+        for (int i = 0; i < 64; ++i)
+            EXPECT_EQ(found.soft[i] > 0, found.bits[i] == 1);
+    }
+}
+
+TEST_P(EveryMethod, TurnsNoFaceOver)
+{
+    const Surface cover = load("fandisk.off");
+    Surface stego = cover;
+    embed(stego, test_key(), options);
+    const Points before = face_normals(cover.points, cover.triangles);
+    const Points after = face_normals(stego.points, stego.triangles);
+    for (std::size_t f = 0; f < before.size(); ++f)
+        EXPECT_TRUE(before[f].isZero() || before[f].dot(after[f]) > 0) << f;
+}
+
+TEST_P(EveryMethod, SurvivesSimilarityAndRenumbering)
+{
+    Surface stego = load("fandisk.off");
+    embed(stego, test_key(), options);
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.5, Point(3, -1, 2).normalized()).toRotationMatrix();
+    std::vector<int> order = Key("order").stream("test").permutation(static_cast<int>(stego.points.size()));
+    Surface moved = stego;
+    for (std::size_t v = 0; v < order.size(); ++v)
+        moved.points[order[v]] = 0.31 * (turn * stego.points[v]) + Point(5, 6, 7);
+    for (Triangle& t : moved.triangles)
+        for (int& v : t)
+            v = order[v];
+    std::reverse(moved.triangles.begin(), moved.triangles.end());
+    EXPECT_EQ(*read(moved, options).detection_ratio, 1);
+}
+
+TEST_P(EveryMethod, KeepsASoupClosed)
+{
+    const Surface cover = load("fandisk.off");
+    Surface soup;
+    for (const Triangle& t : cover.triangles) {
+        const int first = static_cast<int>(soup.points.size());
+        for (const int v : t)
+            soup.points.push_back(cover.points[v]);
+        soup.triangles.push_back({first, first + 1, first + 2});
+    }
+    Surface stego = cover;
+    const EmbedReport welded = embed(stego, test_key(), options);
+    embed(soup, test_key(), options);
+    EXPECT_EQ(weld(soup).surface.points.size(), cover.points.size());
+    // The same mark, to the bit, as on the mesh with shared vertices.
+    for (std::size_t f = 0; f < cover.triangles.size(); ++f)
+        for (int k = 0; k < 3; ++k)
+            ASSERT_EQ(soup.points[3 * f + k], stego.points[cover.triangles[f][k]]);
+    EXPECT_EQ(read(weld(soup).surface, options).bits, welded.bits);
+}
+
+TEST_P(EveryMethod, GivesTheSameAtAnyNumberOfThreads)
+{
+    Surface alone = load("fandisk.off");
+    Surface together = alone;
+    set_threads(1);
+    embed(alone, test_key(), options);
+    const DetectReport read_alone = read(alone, options);
+    set_threads(4);
+    embed(together, test_key(), options);
+    const DetectReport read_together = read(together, options);
+    set_threads(0);
+    EXPECT_EQ(alone.points, together.points);
+    EXPECT_EQ(read_alone.soft, read_together.soft);
+}
+
+TEST_P(EveryMethod, LeavesTheMeshWhereCancelled)
+{
+    const Surface cover = load("fandisk.off");
+    int calls = 0;
+    Surface stego = cover;
+    embed(stego, test_key(), options, [&](int, const char*) { return ++calls > 0; });
+    ASSERT_GT(calls, 3);
+    for (int stop = 1; stop <= calls; ++stop) {
+        Surface surface = cover;
+        int call = 0;
+        EXPECT_THROW(embed(surface, test_key(), options, [&](int, const char*) { return ++call < stop; }), Cancelled);
+        EXPECT_EQ(surface.points, cover.points);
+    }
+}
+
+TEST_P(EveryMethod, MovesNothingButFloatsInFloatStorage)
+{
+    Surface stego = load("fandisk.off");
+    embed(stego, test_key(), options);
+    for (const Point& p : stego.points)
+        EXPECT_EQ(p, p.cast<float>().cast<double>());
+}
+
+TEST_P(EveryMethod, InDoubleStorageSurvivesFloatFiles)
+{
+    Surface stego = load("fandisk.off");
+    options.storage = Storage::Double;
+    embed(stego, test_key(), options);
+    EXPECT_EQ(*read(stego, options).detection_ratio, 1);
+    for (Point& p : stego.points)
+        p = p.cast<float>().cast<double>();
+    EXPECT_EQ(*read(stego, options).detection_ratio, 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Watermark, EveryMethod,
+                         testing::Values(Case{Method::LM, Statistic::Mean}, Case{Method::LM, Statistic::Variance},
+                                         Case{Method::QSP, Statistic::Mean}, Case{Method::QSP, Statistic::Variance},
+                                         Case{Method::Cho, Statistic::Mean}, Case{Method::Cho, Statistic::Variance}),
+                         [](const auto& info) {
+                             std::string text = std::string(name(info.param.method)) + name(info.param.statistic);
+                             text.erase(std::remove(text.begin(), text.end(), '-'), text.end());
+                             return text;
+                         });
+
+// Matches under wrong keys are Binomial(64, 1/2). Chi-square over classes that each expect five or more of 200.
+TEST(WrongKeys, MatchByEvenChance)
+{
+    Surface stego = load("fandisk.off");
+    const EmbedOptions options = options_for(Method::Cho, Statistic::Mean);
+    embed(stego, test_key(), options);
+    constexpr int keys = 200;
+    constexpr std::array<int, 9> upper = {26, 28, 30, 31, 32, 33, 35, 37, 64}; // last count of matches in each class
+    std::array<double, upper.size()> expected{};
+    std::array<int, upper.size()> seen{};
+    const auto class_of = [&](int matches) {
+        return std::lower_bound(upper.begin(), upper.end(), matches) - upper.begin();
+    };
+    for (int k = 0; k <= 64; ++k)
+        expected[class_of(k)] +=
+            keys * std::exp(std::lgamma(65) - std::lgamma(k + 1) - std::lgamma(65 - k)) * std::ldexp(1.0, -64);
+    for (int i = 0; i < keys; ++i) {
+        const DetectReport found = read(stego, options, Key("wrong " + std::to_string(i)));
+        ++seen[class_of(static_cast<int>(std::lround(*found.detection_ratio * 64)))];
+        EXPECT_FALSE(*found.present);
+    }
+    double chi2 = 0;
+    for (std::size_t c = 0; c < upper.size(); ++c) {
+        EXPECT_GE(expected[c], 5);
+        chi2 += (seen[c] - expected[c]) * (seen[c] - expected[c]) / expected[c];
+    }
+    EXPECT_LT(chi2, 20.09); // 8 degrees of freedom, p = 0.01
+}
+
+/// What the error says, or "" where there is none. The surface must stay as it was.
+std::string refusal(const Surface& surface, const EmbedOptions& options)
+{
+    Surface changed = surface;
+    std::string text;
+    try {
+        embed(changed, test_key(), options);
+    } catch (const Error& error) {
+        text = error.what();
+        EXPECT_EQ(changed.points.size(), surface.points.size());
+        for (std::size_t v = 0; v < surface.points.size(); ++v)
+            EXPECT_TRUE(changed.points[v] == surface.points[v] || !surface.points[v].allFinite());
+    }
+    return text;
+}
+
+TEST(Embed, RefusesWithACauseAndLeavesTheMesh)
+{
+    const EmbedOptions good = options_for(Method::Cho, Statistic::Mean);
+    const Surface fandisk = load("fandisk.off");
+    const auto with = [&](auto change) {
+        EmbedOptions options = good;
+        change(options);
+        return refusal(fandisk, options);
+    };
+    EXPECT_NE(with([](auto& o) { o.bits = -1; }).find("between 1 and 1024"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.bits = 1025; }).find("between 1 and 1024"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.bits = 16; }).find("48 bits"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.trim = 0.5; }).find("between 0 and 0.45"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.strength = -0.1; }).find("Strength"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.strength = 0.5; }).find("Strength"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.strength = std::nan(""); }).find("Strength"), std::string::npos);
+
+    EXPECT_NE(refusal({}, good).find("no faces"), std::string::npos);
+    EXPECT_NE(refusal({fandisk.points, {}}, good).find("no faces"), std::string::npos);
+    EXPECT_NE(refusal({{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, {{0, 1, 2}}}, good).find("distinct"), std::string::npos);
+    Surface broken = fandisk;
+    broken.points[7].y() = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_NE(refusal(broken, good).find("finite"), std::string::npos);
+    broken.points[7].y() = std::numeric_limits<double>::infinity();
+    EXPECT_NE(refusal(broken, good).find("finite"), std::string::npos);
+    EXPECT_NE(refusal(load("octahedron.off"), good).find("equally far"), std::string::npos);
+    EXPECT_NE(refusal(load("cow.off"),
+                      [&] {
+                          EmbedOptions many = good;
+                          many.bits = 1024;
+                          return many;
+                      }())
+                  .find("carries"),
+              std::string::npos);
+
+    Surface far = fandisk;
+    for (Point& p : far.points)
+        p.x() += 1e6 * bounding_diagonal(fandisk);
+    EXPECT_NE(refusal(far, good).find("origin"), std::string::npos);
+}
+
+TEST(Embed, WorksAtAnySizeThatDoublesHold)
+{
+    for (const double scale : {1e-30, 1e30}) {
+        Surface surface = load("fandisk.off");
+        for (Point& p : surface.points)
+            p *= scale;
+        EmbedOptions options = options_for(Method::LM, Statistic::Mean);
+        embed(surface, test_key(), options);
+        EXPECT_EQ(*read(surface, options).detection_ratio, 1);
+    }
+}
+
+TEST(Embed, AgainMovesNothing)
+{
+    Surface surface = load("bunny00.off");
+    const EmbedOptions options = options_for(Method::LM, Statistic::Mean);
+    EXPECT_GT(embed(surface, test_key(), options).mrms, 0);
+    EXPECT_EQ(embed(surface, test_key(), options).moved_vertices, 0);
+}
+
+TEST(Embed, LeavesVerticesWithoutFaces)
+{
+    Surface surface = load("fandisk.off");
+    surface.points.insert(surface.points.begin() + 100, Point(1000, 1000, 1000));
+    for (Triangle& t : surface.triangles)
+        for (int& v : t)
+            v += v >= 100;
+    const EmbedOptions options = options_for(Method::LM, Statistic::Mean);
+    embed(surface, test_key(), options);
+    EXPECT_EQ(surface.points[100], Point(1000, 1000, 1000));
+    EXPECT_EQ(read(surface, options).carrier_of_vertex[100], -1);
+    EXPECT_EQ(*read(surface, options).detection_ratio, 1);
+}
+
+TEST(Embed, WithBitsZeroTakesTheMessagesLength)
+{
+    Surface surface = load("fandisk.off");
+    EmbedOptions options = options_for(Method::LM, Statistic::Mean);
+    options.bits = 0;
+    EXPECT_EQ(embed(surface, test_key(), options).carriers, 48);
+    options.bits = 48;
+    EXPECT_EQ(format_message(read(surface, options).bits), "museum");
+}
+
+// Section 5.6.2: the more the third weight counts, the greater the distortion; (.49, .49, .02) is the thesis' best.
+TEST(SphereWeights, KeepTheOrderOfTable52)
+{
+    const Surface cover = load("bunny00.off");
+    double previous = 0;
+    for (const std::array<double, 3> weights :
+         {std::array<double, 3>{0.49, 0.49, 0.02}, {0.4, 0.4, 0.2}, {0.3, 0.3, 0.4}, {0.5, 0, 0.5}, {0, 0, 1}}) {
+        Surface stego = cover;
+        EmbedOptions options = options_for(Method::LM, Statistic::Mean);
+        options.trim = 0.1;
+        options.sphere_weights = weights;
+        const double mrms = embed(stego, test_key(), options).mrms;
+        EXPECT_GT(mrms, previous);
+        previous = mrms;
+    }
+}
+
+// methods.md 3 and Table 5.3 with an exact solver: ratios to Cho do not depend on the model's scale.
+TEST(Distortion, IsAsPublished)
+{
+    for (const char* mesh : {"bunny00.off", "fandisk.off"}) {
+        const Surface cover = load(mesh);
+        for (const Statistic statistic : {Statistic::Mean, Statistic::Variance}) {
+            const auto mrms = [&](Method method) {
+                Surface stego = cover;
+                EmbedOptions options = options_for(method, statistic);
+                options.trim = 0.1;
+                return embed(stego, test_key(), options).mrms_relative;
+            };
+            const double cho = mrms(Method::Cho);
+            if (statistic == Statistic::Mean) {
+                EXPECT_GT(cho, 2.5e-4);
+                EXPECT_LT(cho, 3.3e-4);
+            }
+            EXPECT_LT(mrms(Method::QSP), 0.45 * cho);
+            EXPECT_LT(mrms(Method::LM), (statistic == Statistic::Mean ? 0.17 : 0.19) * cho);
+        }
+    }
+}
+
+} // namespace
