@@ -1,0 +1,110 @@
+#include "strips.h"
+
+#include "../geometry/moments.h"
+#include "../geometry/normal_smoothing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vcg_ext {
+
+namespace {
+
+/// Uniform over the sphere's directions: an integer point of a cube, drawn again outside its inscribed ball.
+Point draw_direction(Stream& draws)
+{
+    constexpr std::int64_t radius = 1 << 20;
+    while (true) {
+        std::int64_t p[3];
+        std::int64_t square = 0;
+        for (std::int64_t& x : p) {
+            x = static_cast<std::int64_t>(draws.below(2 * radius + 1)) - radius;
+            square += x * x;
+        }
+        if (square > 0 && square <= radius * radius)
+            return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+    }
+}
+
+/// How far the statistics lie from the threshold, in all: sum of n s^2.
+double evidence(const Carriers& carriers, Statistic statistic)
+{
+    const std::vector<int> count = samples(carriers);
+    const std::vector<double> read = statistics(carriers, statistic);
+    double sum = 0;
+    for (int k = 0; k < carriers.count; ++k)
+        sum += count[k] * (read[k] - threshold(statistic)) * (read[k] - threshold(statistic));
+    return sum;
+}
+
+} // namespace
+
+SurfacePoint keyed_source(const Surface& surface, const Key& key, bool* from_volume)
+{
+    const Frame frame = principal_frame(surface);
+    if (frame.measure == 0)
+        throw Error("No face of the mesh has an area. Check its coordinates, or reconstruct the surface.");
+    if (from_volume)
+        *from_volume = frame.from_volume;
+    Stream draws = key.stream("direction");
+    for (int attempt = 0; attempt < 1000; ++attempt)
+        if (const auto hit = farthest_hit(surface, frame.centre, frame.axes * draw_direction(draws)))
+            return *hit;
+    throw Error("No ray from the mesh's centre meets its surface, so geodesic distances have no source. "
+                "Use another method, or a more complete mesh.");
+}
+
+Strips strips_from(const SurfacePoint& source, const Surface& surface, const VertexFaces& around, double trim, int count)
+{
+    Strips strips;
+    strips.source = source;
+    strips.arrivals = march(surface, around, source);
+    std::vector<double> distances(strips.arrivals.size());
+    for (std::size_t v = 0; v < distances.size(); ++v) {
+        distances[v] = strips.arrivals[v].distance;
+        if (std::isinf(distances[v]))
+            ++strips.unreached;
+        else
+            strips.farthest = std::max(strips.farthest, distances[v]);
+    }
+    strips.carriers = cut_range(distances, 0, strips.farthest, trim, count);
+    return strips;
+}
+
+SurfacePoint carried_along(const SurfacePoint& source, const Surface& surface, const Points& points)
+{
+    const auto& [a, b, c] = surface.triangles[source.face];
+    const Point ab = surface.points[b] - surface.points[a];
+    const Point ac = surface.points[c] - surface.points[a];
+    const Point as = source.position - surface.points[a];
+    const Point normal = ab.cross(ac);
+    const double square = normal.squaredNorm();
+    if (!(square > 0))
+        return {source.face, points[a]};
+    const double along_b = as.cross(ac).dot(normal) / square;
+    const double along_c = ab.cross(as).dot(normal) / square;
+    return {source.face, points[a] + along_b * (points[b] - points[a]) + along_c * (points[c] - points[a])};
+}
+
+Strips read_strips(const Surface& surface, const VertexFaces& around, const Key& key, double trim, int count,
+                   Statistic statistic)
+{
+    bool from_volume = false;
+    const SurfacePoint source = keyed_source(surface, key, &from_volume);
+    Strips best;
+    double most = -1;
+    for (const int rounds : {0, 1, 3}) {
+        const Surface smooth{smoothed_along_normals(surface, around, rounds, 0.5), surface.triangles};
+        Strips strips = strips_from(carried_along(source, surface, smooth.points), smooth, around, trim, count);
+        const double here = evidence(strips.carriers, statistic);
+        if (here > most) {
+            most = here;
+            best = std::move(strips);
+            best.smoothing_rounds = rounds;
+        }
+    }
+    best.from_volume = from_volume;
+    return best;
+}
+
+} // namespace vcg_ext
