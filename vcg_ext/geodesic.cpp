@@ -1,6 +1,6 @@
 #include "geodesic.h"
 
-#include "carrier/strips.h"
+#include "placement/front.h"
 
 #include <cmath>
 #include <limits>
@@ -31,12 +31,14 @@ std::vector<std::string> strip_warnings(const Strips& strips)
 {
     std::vector<std::string> warnings;
     if (!strips.from_volume)
-        warnings.emplace_back("The mesh is not closed or not consistently oriented, so it is aligned by the moments of its "
-                              "surface. Cutting it or filling its holes afterwards loses the mark.");
+        warnings.emplace_back(
+            "The mesh is not closed or not consistently oriented, so it is aligned by the moments of its "
+            "surface. Cutting it or filling its holes afterwards loses the mark.");
     if (strips.unreached > 0)
-        warnings.push_back(std::to_string(strips.unreached) +
-                           " vertices belong to parts of the mesh that are not connected with the part that carries the "
-                           "mark; they stay as they are.");
+        warnings.push_back(
+            std::to_string(strips.unreached) +
+            " vertices belong to parts of the mesh that are not connected with the part that carries the "
+            "mark; they stay as they are.");
     return warnings;
 }
 
@@ -50,7 +52,7 @@ ScalarMethod geodesic_method(const Surface& surface, const Key& key, const Embed
     strips->from_volume = from_volume;
     report.warnings = strip_warnings(*strips);
     ScalarMethod method;
-    method.cover = strips->carriers;
+    method.cut = [strips, trim](int count) { return cut_range(strips->distances, 0, strips->farthest, trim, count); };
     method.fixed.assign(surface.points.size(), 0);
     for (const int v : surface.triangles[source.face])
         method.fixed[v] = 1;
@@ -65,7 +67,8 @@ ScalarMethod geodesic_method(const Surface& surface, const Key& key, const Embed
         return placement.points;
     };
     method.read = [cover, &surface, &key, trim, options](const Points& stored) {
-        return read_strips({stored, surface.triangles}, cover->around, key, trim, options.bits, options.statistic).carriers;
+        return read_strips({stored, surface.triangles}, cover->around, key, trim, options.bits, options.statistic)
+            .carriers;
     };
     return method;
 }

@@ -1,6 +1,7 @@
 #pragma once
-#include "placement/front.h"
+#include "carrier/strips.h"
 #include "scalar.h"
+#include "watermark.h"
 
 namespace vcg_ext {
 
@@ -8,7 +9,10 @@ namespace vcg_ext {
 ///
 /// \param surface welded; must outlive the result
 /// \param report  gets counts and warnings, the counts after each placement
-[[nodiscard]] ScalarMethod geodesic_method(const Surface& surface, const Key& key, const EmbedOptions& options, double trim,
-                                           EmbedReport& report);
+[[nodiscard]] ScalarMethod geodesic_method(const Surface& surface, const Key& key, const EmbedOptions& options,
+                                           double trim, EmbedReport& report);
+
+/// What a user should know about the strips that were found.
+[[nodiscard]] std::vector<std::string> strip_warnings(const Strips& strips);
 
 } // namespace vcg_ext

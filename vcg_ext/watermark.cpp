@@ -1,6 +1,7 @@
 #include "watermark.h"
 
 #include "carrier/shells.h"
+#include "geodesic.h"
 #include "metric/displacement.h"
 #include "metric/statistics.h"
 #include "norms.h"
@@ -44,8 +45,12 @@ Secrets draw_secrets(const Key& key, const CarrierOptions& options)
 {
     Secrets secrets;
     secrets.trim = options.trim;
-    if (options.trim < 0)
-        secrets.trim = static_cast<double>(key.stream("epsilon").below(15001)) / 1e5; // thesis 5.2.1: in [0, 0.15]
+    if (options.trim < 0) {
+        // Norms: in [0, 0.15] (thesis 5.2.1). Strips: the thesis draws from (0, 0.2), but where nearly nothing is cut
+        // off, the first and the last strip are too small to hold a vertex; so in [0.05, 0.2].
+        const double least = options.method == Method::Geodesic ? 0.05 : 0;
+        secrets.trim = least + static_cast<double>(key.stream("epsilon").below(15001)) / 1e5;
+    }
     secrets.carrier_of_bit = key.stream("carrier-order").permutation(options.bits);
     Stream mask = key.stream("bit-mask");
     for (int i = 0; i < options.bits; ++i)
@@ -119,10 +124,31 @@ double float_guard(const Points& points, const Carriers& carriers)
     return 4 * std::numeric_limits<float>::epsilon() * largest / carriers.width;
 }
 
-int most_that_fills(const Surface& surface, double trim, int bits)
+ScalarMethod scalar_method(const Surface& surface, const Key& key, const EmbedOptions& options, double trim,
+                           EmbedReport& report)
+{
+    if (options.method == Method::Geodesic)
+        return geodesic_method(surface, key, options, trim, report);
+    return norm_method(surface, options, trim, report);
+}
+
+/// The carriers as a blind detector finds them.
+Carriers found_carriers(const Surface& surface, const Key& key, const CarrierOptions& options, DetectReport& report)
+{
+    if (options.method == Method::Geodesic) {
+        const VertexFaces around = vertex_faces(static_cast<int>(surface.points.size()), surface.triangles);
+        const Strips strips = read_strips(surface, around, key, report.trim, options.bits, options.statistic);
+        report.smoothing_rounds = strips.smoothing_rounds;
+        report.warnings = strip_warnings(strips);
+        return strips.carriers;
+    }
+    return shells(surface.points, surface.triangles, report.trim, options.bits).carriers;
+}
+
+int most_that_fills(const ScalarMethod& method, int bits)
 {
     for (int fewer = bits - 1; fewer > 0; --fewer) {
-        const std::vector<int> count = samples(shells(surface.points, surface.triangles, trim, fewer).carriers);
+        const std::vector<int> count = samples(method.cut(fewer));
         if (*std::min_element(count.begin(), count.end()) > 0)
             return fewer;
     }
@@ -212,16 +238,17 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
 
     report(progress, 0, "Finding carriers");
     const Welded welded = checked_weld(surface);
-    const ScalarMethod method = norm_method(welded.surface, options, secrets.trim, result);
-    const std::vector<int> count = samples(method.cover);
+    const ScalarMethod method = scalar_method(welded.surface, key, options, secrets.trim, result);
+    const Carriers cover = method.cut(options.bits);
+    const std::vector<int> count = samples(cover);
     result.samples_min = *std::min_element(count.begin(), count.end());
     if (result.samples_min == 0) {
-        const int fewer = most_that_fills(welded.surface, secrets.trim, options.bits);
+        const int fewer = most_that_fills(method, options.bits);
         throw Error(std::to_string(std::count(count.begin(), count.end(), 0)) + " of the " +
                     std::to_string(options.bits) + " carriers hold no vertex. This mesh carries " +
                     std::to_string(fewer) + " bits with this method and key; shorten the message or use a finer mesh.");
     }
-    const double guard = float_guard(welded.surface.points, method.cover);
+    const double guard = float_guard(welded.surface.points, cover);
     bool as_float = true;
     if (guard > 0.2) {
         if (options.storage == Storage::Float)
@@ -236,7 +263,7 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     result.seconds["carriers"] = watch.lap();
 
     const auto round = [as_float](const Points& points) { return as_float ? rounded_to_float(points) : points; };
-    ScalarResult placed = embed_scalar(method, options.statistic, carrier_bits(result.bits, secrets), alpha,
+    ScalarResult placed = embed_scalar(method, cover, options.statistic, carrier_bits(result.bits, secrets), alpha,
                                        std::max(as_float ? guard : 0, 1e-6), options.max_rounds, round, progress);
     result.rounds = placed.rounds;
     const std::string wrong = list_wrong_bits(placed.margins, secrets);
@@ -281,8 +308,7 @@ DetectReport detect(const Surface& surface, const Key& key, const DetectOptions&
     report(progress, 0, "Finding carriers");
     const Welded welded = checked_weld(surface);
     report(progress, 30, "Reading");
-    read_bits(shells(welded.surface.points, welded.surface.triangles, secrets.trim, options.bits).carriers, secrets,
-              result);
+    read_bits(found_carriers(welded.surface, key, options, result), secrets, result);
     std::vector<int> carrier_of_vertex(surface.points.size(), -1);
     for (std::size_t v = 0; v < carrier_of_vertex.size(); ++v)
         if (welded.site_of_vertex[v] >= 0)

@@ -28,6 +28,18 @@ enum class Statistic {
 /// Which scalar the written file will hold. The blind self-check reads the coordinates as they will be stored.
 enum class Storage { Float, Double };
 
+/// How Method::Geodesic places its vertices.
+enum class FrontScheme {
+    /// All vertices at once along the direction that costs least distance from the surface; then the rest in the order
+    /// of
+    /// the front.
+    PredictCorrect,
+    /// The thesis' vertex placement scheme: one vertex after the other along the front's gradient (theorem 1), without
+    /// its
+    /// limit (4.21), which as printed or put right leaves more vertices short of their targets than it saves.
+    Sequential
+};
+
 [[nodiscard]] const char* name(Method method);
 [[nodiscard]] const char* name(Statistic statistic);
 
@@ -48,6 +60,15 @@ struct EmbedOptions : CarrierOptions {
     /// Jacobi sweeps of Method::LM: the first sees the neighbours on the cover, the next where the one before put them.
     /// More than one gains nothing: MRMS grows by 0 to 12 % (tests/benchmark/norm_methods).
     int sphere_sweeps = 1;
+    FrontScheme front_scheme = FrontScheme::PredictCorrect; ///< for Method::Geodesic
+};
+
+/// How many vertices took how many moves to their targets (the thesis' Table 4.5); Method::Geodesic only.
+struct MoveCounts {
+    std::array<int, 4> moves{}; ///< 1, 2, 3, and 4 or more
+    int unconverged = 0;        ///< ended short of their targets, at the nearest point that folds no face
+
+    [[nodiscard]] int total() const { return moves[0] + moves[1] + moves[2] + moves[3] + unconverged; }
 };
 
 /// Iterations of Method::LM per moved vertex.
@@ -74,6 +95,7 @@ struct EmbedReport {
     double mrms_relative = 0;              ///< over the bounding box's diagonal
     std::map<std::string, double> seconds; ///< by phase
     std::optional<SolverSummary> solver;   ///< Method::LM only
+    std::optional<MoveCounts> moves;       ///< Method::Geodesic only
     std::vector<std::string> warnings;
 };
 
@@ -92,6 +114,7 @@ struct DetectReport {
     std::optional<double> detection_ratio; ///< matching bits over all; with `expected` only
     std::optional<double> p_value;         ///< exact binomial tail of at least that many matches by chance
     std::optional<bool> present;           ///< p_value below 1e-6
+    std::optional<int> smoothing_rounds;   ///< of the surface before it was read; Method::Geodesic only
     std::map<std::string, double> seconds;
     std::vector<std::string> warnings;
     std::vector<int> carrier_of_vertex; ///< per vertex the number of the bit it carries, or -1

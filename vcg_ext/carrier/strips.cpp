@@ -54,20 +54,20 @@ SurfacePoint keyed_source(const Surface& surface, const Key& key, bool* from_vol
                 "Use another method, or a more complete mesh.");
 }
 
-Strips strips_from(const SurfacePoint& source, const Surface& surface, const VertexFaces& around, double trim, int count)
+Strips strips_from(const SurfacePoint& source, const Surface& surface, const VertexFaces& around, double trim,
+                   int count)
 {
     Strips strips;
     strips.source = source;
     strips.arrivals = march(surface, around, source);
-    std::vector<double> distances(strips.arrivals.size());
-    for (std::size_t v = 0; v < distances.size(); ++v) {
-        distances[v] = strips.arrivals[v].distance;
-        if (std::isinf(distances[v]))
+    for (const Arrival& arrival : strips.arrivals) {
+        strips.distances.push_back(arrival.distance);
+        if (std::isinf(arrival.distance))
             ++strips.unreached;
         else
-            strips.farthest = std::max(strips.farthest, distances[v]);
+            strips.farthest = std::max(strips.farthest, arrival.distance);
     }
-    strips.carriers = cut_range(distances, 0, strips.farthest, trim, count);
+    strips.carriers = cut_range(strips.distances, 0, strips.farthest, trim, count);
     return strips;
 }
 

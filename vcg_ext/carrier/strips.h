@@ -10,9 +10,10 @@ struct Strips {
     std::vector<Arrival> arrivals; ///< per vertex
     double farthest = 0;           ///< T_max; T_min is 0, the source itself
     Carriers carriers;
-    int smoothing_rounds = 0; ///< of the surface before the march, see read_strips()
-    int unreached = 0;        ///< vertices that no path of faces leads to
-    bool from_volume = false; ///< whether the frame is that of the enclosed solid (principal_frame)
+    std::vector<double> distances; ///< per vertex, those of `arrivals`
+    int smoothing_rounds = 0;      ///< of the surface before the march, see read_strips()
+    int unreached = 0;             ///< vertices that no path of faces leads to; they carry nothing
+    bool from_volume = false;      ///< whether the frame is that of the enclosed solid (principal_frame)
 };
 
 /// Finds the source: the farthest point of the surface in a direction that the key draws in the body's own frame, the
@@ -21,10 +22,10 @@ struct Strips {
 /// \throw Error where no ray from the centre meets the surface
 [[nodiscard]] SurfacePoint keyed_source(const Surface& surface, const Key& key, bool* from_volume = nullptr);
 
-/// Distances from `source`, and the strips between `trim` and 1 - `trim` of the farthest ((4.4)-(4.6) with their offset put
-/// right). \param around of the surface's triangles
-[[nodiscard]] Strips strips_from(const SurfacePoint& source, const Surface& surface, const VertexFaces& around, double trim,
-                                 int count);
+/// Distances from `source`, and the strips between `trim` and 1 - `trim` of the farthest ((4.4)-(4.6) with their offset
+/// put right). \param around of the surface's triangles
+[[nodiscard]] Strips strips_from(const SurfacePoint& source, const Surface& surface, const VertexFaces& around,
+                                 double trim, int count);
 
 /// The same point of the material in other positions of the surface's vertices.
 [[nodiscard]] SurfacePoint carried_along(const SurfacePoint& source, const Surface& surface, const Points& points);
@@ -32,9 +33,10 @@ struct Strips {
 /// The strips as a blind detector sees them.
 ///
 /// Noise roughens the surface, and a rough surface has longer ways. So the march is repeated with 1 and 3 rounds of
-/// smoothing along the normals, which keeps the density along the surface that carries the mark. That reading is taken whose
-/// statistics lie farthest from their threshold: largest sum of n s^2. It never looks at the mask, so p stays exact.
-[[nodiscard]] Strips read_strips(const Surface& surface, const VertexFaces& around, const Key& key, double trim, int count,
-                                 Statistic statistic);
+/// smoothing along the normals, which keeps the density along the surface that carries the mark. That reading is taken
+/// whose statistics lie farthest from their threshold: largest sum of n s^2. It never looks at the mask, so p stays
+/// exact.
+[[nodiscard]] Strips read_strips(const Surface& surface, const VertexFaces& around, const Key& key, double trim,
+                                 int count, Statistic statistic);
 
 } // namespace vcg_ext

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// Inverse of the metric in which the move is shortest: distance from the cover's planes costs 50 times that along them.
+/// Inverse of the metric in which the move is shortest: distance from the cover's planes costs 50 times that along
+/// them.
 std::vector<Eigen::Matrix3d> inverse_metrics(const Cover& cover)
 {
     std::vector<Eigen::Matrix3d> inverse(cover.points.size());
@@ -36,10 +37,10 @@ std::vector<Eigen::Matrix3d> inverse_metrics(const Cover& cover)
 
 class Front {
 public:
-    Front(const Cover& cover, const std::vector<Arrival>& arrivals, const std::vector<double>& targets, double tolerance,
-          const FrontOptions& options)
-        : cover_(cover), arrivals_(arrivals), targets_(targets), tolerance_(tolerance), options_(options),
-          now_{cover.points, cover.triangles}, moves_(targets.size(), 0), missed_(targets.size(), 0)
+    Front(const Cover& cover, const std::vector<Arrival>& arrivals, const std::vector<double>& targets,
+          double tolerance, const FrontOptions& options)
+        : cover_(cover), arrivals_(arrivals), targets_(targets), tolerance_(tolerance),
+          options_(options), now_{cover.points, cover.triangles}, moves_(targets.size(), 0), missed_(targets.size(), 0)
     {
         order_.resize(targets.size());
         std::iota(order_.begin(), order_.end(), 0);
@@ -118,9 +119,8 @@ private:
             now_.points[v] += move[v];
             moves_[v] = 1;
         });
-        guard_folds(cover_, now_.points, 20, [&](int v, int step) -> Point {
-            return cover_.points[v] + std::exp2(-step) * move[v];
-        });
+        guard_folds(cover_, now_.points, 20,
+                    [&](int v, int step) -> Point { return cover_.points[v] + std::exp2(-step) * move[v]; });
     }
 
     /// Visits the vertices as the front passes them; `place` returns the place of a movable one.
