@@ -52,10 +52,10 @@ ScalarMethod geodesic_method(const Surface& surface, const Key& key, const Embed
     strips->from_volume = from_volume;
     report.warnings = strip_warnings(*strips);
     ScalarMethod method;
+    method.guard = 0.02; // the source moves along with the mark, and the strips with it
+    method.cover = strips->carriers;
     method.cut = [strips, trim](int count) { return cut_range(strips->distances, 0, strips->farthest, trim, count); };
     method.fixed.assign(surface.points.size(), 0);
-    for (const int v : surface.triangles[source.face])
-        method.fixed[v] = 1;
     method.place = [cover, strips, &report, scheme = options.front_scheme](const std::vector<double>& told) {
         FrontOptions front;
         front.scheme = scheme;
@@ -69,6 +69,14 @@ ScalarMethod geodesic_method(const Surface& surface, const Key& key, const Embed
     method.read = [cover, &surface, &key, trim, options](const Points& stored) {
         return read_strips({stored, surface.triangles}, cover->around, key, trim, options.bits, options.statistic)
             .carriers;
+    };
+    method.reframe = [cover, strips, &surface, &key, trim, bits = options.bits](const Points& stored) {
+        const Surface marked{stored, surface.triangles};
+        const SurfacePoint source = keyed_source(marked, key);
+        const double farthest = strips_from(source, marked, cover->around, trim, bits).farthest;
+        *strips = strips_from(carried_along(source, marked, surface.points), surface, cover->around, trim, bits);
+        strips->carriers = cut_range(strips->distances, 0, farthest, trim, bits);
+        return strips->carriers;
     };
     return method;
 }

@@ -90,6 +90,7 @@ ScalarMethod norm_method(const Surface& surface, const EmbedOptions& options, do
     const auto cover = std::make_shared<const Cover>(surface);
     const auto frame = std::make_shared<Shells>(shells(surface.points, surface.triangles, trim, options.bits));
     ScalarMethod method;
+    method.cover = frame->carriers;
     method.cut = [frame, trim](int count) {
         return cut_range(frame->norms, frame->minimum, frame->maximum, trim, count);
     };

@@ -56,10 +56,11 @@ std::vector<double> target_scalars(const Carriers& cover, const std::vector<char
 
 } // namespace
 
-ScalarResult embed_scalar(const ScalarMethod& method, Carriers cover, Statistic statistic,
-                          const std::vector<char>& bits, double alpha, double guard, int max_rounds,
-                          const std::function<Points(const Points&)>& round, const Progress& progress)
+ScalarResult embed_scalar(const ScalarMethod& method, Statistic statistic, const std::vector<char>& bits, double alpha,
+                          double guard, int max_rounds, const std::function<Points(const Points&)>& round,
+                          const Progress& progress)
 {
+    Carriers cover = method.cover;
     const double middle = threshold(statistic);
     std::vector<double> targets(cover.count);
     for (int k = 0; k < cover.count; ++k)

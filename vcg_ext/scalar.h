@@ -7,9 +7,11 @@ namespace vcg_ext {
 
 /// A method that hides bits in one scalar per vertex, as a choice at each step: which scalar, read how, placed how.
 struct ScalarMethod {
-    /// The unmarked surface's carriers, were there `count` of them.
+    Carriers cover; ///< of the unmarked surface
+    /// The same, were there `count` of them.
     std::function<Carriers(int count)> cut;
     std::vector<char> fixed; ///< per vertex: must not move
+    double guard = 0; ///< part of a carrier's width that values must keep from its ends, for the frame's own sake
     /// Positions in which the scalar of each vertex is as near as can be to its target; a NaN target lets it stay.
     std::function<Points(const std::vector<double>& targets)> place;
     /// The carriers as a blind detector finds them in other positions of the same vertices.
@@ -28,13 +30,12 @@ struct ScalarResult {
 /// The closed loop: map the histogram of every carrier, place, round as stored, read blind; carriers that read wrong or
 /// weak get a target further out and another round. Returns the best round, judged by its worst carrier.
 ///
-/// \param cover the unmarked surface's carriers, `method.cut(bits.size())`
 /// \param bits  per carrier the bit that it is to carry
 /// \param alpha distance of the target from the threshold, (4.8) and (5.7)
 /// \param guard part of a carrier's width that values keep from its ends
 /// \param round what storing does to positions
-[[nodiscard]] ScalarResult embed_scalar(const ScalarMethod& method, Carriers cover, Statistic statistic,
-                                        const std::vector<char>& bits, double alpha, double guard, int max_rounds,
+[[nodiscard]] ScalarResult embed_scalar(const ScalarMethod& method, Statistic statistic, const std::vector<char>& bits,
+                                        double alpha, double guard, int max_rounds,
                                         const std::function<Points(const Points&)>& round, const Progress& progress);
 
 } // namespace vcg_ext

@@ -239,8 +239,7 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     report(progress, 0, "Finding carriers");
     const Welded welded = checked_weld(surface);
     const ScalarMethod method = scalar_method(welded.surface, key, options, secrets.trim, result);
-    const Carriers cover = method.cut(options.bits);
-    const std::vector<int> count = samples(cover);
+    const std::vector<int> count = samples(method.cover);
     result.samples_min = *std::min_element(count.begin(), count.end());
     if (result.samples_min == 0) {
         const int fewer = most_that_fills(method, options.bits);
@@ -248,7 +247,7 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
                     std::to_string(options.bits) + " carriers hold no vertex. This mesh carries " +
                     std::to_string(fewer) + " bits with this method and key; shorten the message or use a finer mesh.");
     }
-    const double guard = float_guard(welded.surface.points, cover);
+    const double guard = float_guard(welded.surface.points, method.cover);
     bool as_float = true;
     if (guard > 0.2) {
         if (options.storage == Storage::Float)
@@ -263,8 +262,9 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     result.seconds["carriers"] = watch.lap();
 
     const auto round = [as_float](const Points& points) { return as_float ? rounded_to_float(points) : points; };
-    ScalarResult placed = embed_scalar(method, cover, options.statistic, carrier_bits(result.bits, secrets), alpha,
-                                       std::max(as_float ? guard : 0, 1e-6), options.max_rounds, round, progress);
+    ScalarResult placed =
+        embed_scalar(method, options.statistic, carrier_bits(result.bits, secrets), alpha,
+                     std::max({as_float ? guard : 0, method.guard, 1e-6}), options.max_rounds, round, progress);
     result.rounds = placed.rounds;
     const std::string wrong = list_wrong_bits(placed.margins, secrets);
     if (!wrong.empty())
