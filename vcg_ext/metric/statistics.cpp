@@ -9,8 +9,7 @@
 #include <functional>
 #include <limits>
 
-namespace vcg_ext
-{
+namespace vcg_ext {
 
 double binomial_tail(int n, int k)
 {

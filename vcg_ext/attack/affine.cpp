@@ -1,0 +1,28 @@
+#include "affine.h"
+
+#include "../random.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+
+namespace vcg_ext {
+
+Points affine(const Points& points, double amount, std::uint64_t seed)
+{
+    Eigen::AlignedBox3d box;
+    for (const Point& p : points)
+        box.extend(p);
+    Stream stream = seeded_stream(seed, "affine");
+    Eigen::Matrix3d change;
+    for (double& entry : change.reshaped())
+        entry = 2 * uniform(stream) - 1;
+    change *= amount / Eigen::JacobiSVD<Eigen::Matrix3d>(change).singularValues()[0];
+
+    const Point centre = box.center();
+    Points result = points;
+    for (Point& p : result)
+        p += change * (p - centre);
+    return result;
+}
+
+} // namespace vcg_ext

@@ -1,0 +1,61 @@
+#include "resample.h"
+
+#include "remesh.h"
+#include "simplify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace vcg_ext {
+
+namespace {
+
+constexpr int remesh_iterations = 5;
+
+double area(const Surface& surface)
+{
+    double twice = 0;
+    for (const Triangle& t : surface.triangles)
+        twice += scaled_normal(surface.points, t).norm();
+    return twice / 2;
+}
+
+/// The edge of equilateral triangles, six at a vertex, of which `area` takes `vertices`.
+double edge_for(double area, int vertices)
+{
+    return std::sqrt(2 * area / (std::sqrt(3.0) * vertices));
+}
+
+/// Collapses what is too many. A collapse takes one vertex with two faces, or at a border with one: so in several
+/// steps.
+Surface down_to(Surface surface, int vertices, const Progress& progress)
+{
+    for (int excess = 0; (excess = static_cast<int>(surface.points.size()) - vertices) > 0;) {
+        const int faces = static_cast<int>(surface.triangles.size());
+        surface = weld(simplify(surface, std::max(faces - std::max(excess, 1), 1), progress)).surface;
+    }
+    return surface;
+}
+
+} // namespace
+
+Surface resample(const Surface& surface, int vertices, const Progress& progress)
+{
+    double length = edge_for(area(surface), std::max(vertices, 4));
+    constexpr int tries = 8;
+    for (int i = 0; i < tries; ++i) {
+        report(progress, 100 * i / tries, "Resampling");
+        Surface even = remesh(surface, length, remesh_iterations);
+        const double ratio = static_cast<double>(even.points.size()) / vertices;
+        if (ratio >= 1 && (ratio <= 1.1 || i >= tries / 2))
+            even = down_to(std::move(even), vertices, progress);
+        if (std::abs(static_cast<double>(even.points.size()) - vertices) <= 0.01 * vertices)
+            return even;
+        length *= std::sqrt(ratio / 1.04); // aim a little above, for collapses can only take away
+    }
+    throw Error("The surface cannot be resampled to " + std::to_string(vertices) +
+                " vertices: its creases and borders fix another number. Keep a larger part.");
+}
+
+} // namespace vcg_ext

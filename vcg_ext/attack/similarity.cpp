@@ -1,0 +1,29 @@
+#include "similarity.h"
+
+#include "../random.h"
+
+#include <Eigen/Geometry>
+
+namespace vcg_ext {
+
+Points similarity(const Points& points, std::uint64_t seed)
+{
+    Eigen::AlignedBox3d box;
+    for (const Point& p : points)
+        box.extend(p);
+    Stream stream = seeded_stream(seed, "similarity");
+    const Eigen::Matrix3d rotation = Eigen::Quaterniond(direction<4>(stream)).toRotationMatrix();
+    const double scale = 0.5 + 1.5 * uniform(stream);
+    const double diagonal = box.diagonal().norm();
+    Point shift;
+    for (double& x : shift)
+        x = (2 * uniform(stream) - 1) * diagonal;
+
+    const Point centre = box.center();
+    Points result = points;
+    for (Point& p : result)
+        p = scale * (rotation * (p - centre)) + centre + shift;
+    return result;
+}
+
+} // namespace vcg_ext

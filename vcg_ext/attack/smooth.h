@@ -1,0 +1,11 @@
+#pragma once
+#include "../error.h"
+#include "../surface.h"
+
+namespace vcg_ext {
+
+/// Laplacian smoothing with uniform weights: in every step each vertex goes the part `lambda` of the way to the mean of
+/// its neighbours, all at once. At a border too, where the surface therefore shrinks. Gives the new positions.
+[[nodiscard]] Points smooth(const Surface& surface, double lambda, int iterations, const Progress& progress = {});
+
+} // namespace vcg_ext

@@ -1,0 +1,21 @@
+#include "random.h"
+
+namespace vcg_ext {
+
+Stream seeded_stream(std::uint64_t seed, std::string_view purpose, std::uint64_t part)
+{
+    std::array<unsigned char, 32> subkey{};
+    for (int i = 0; i < 8; ++i) {
+        subkey[i] = static_cast<unsigned char>(seed >> 8 * i);
+        subkey[8 + i] = static_cast<unsigned char>(part >> 8 * i);
+    }
+    purpose.copy(reinterpret_cast<char*>(subkey.data()) + 16, 16);
+    return Stream(subkey);
+}
+
+double uniform(Stream& stream)
+{
+    return static_cast<double>(stream.next() >> 11) * 0x1p-53;
+}
+
+} // namespace vcg_ext
