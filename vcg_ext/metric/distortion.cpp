@@ -1,0 +1,257 @@
+#include "distortion.h"
+
+#include "../geometry/closest.h"
+#include "../geometry/moments.h"
+#include "../parallel.h"
+#include "../random.h"
+#include "perceptual.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vcg_ext {
+
+namespace {
+
+/// Two surfaces with every position once. Where both have the same faces, so have these, and vertices correspond.
+struct Pair {
+    Surface reference;
+    Surface measured;
+    std::vector<int> site_of_vertex; ///< per vertex of the measured mesh as it came
+    bool same_faces = false;
+};
+
+void check(const Surface& surface, const char* which)
+{
+    if (!std::all_of(surface.points.begin(), surface.points.end(), [](const Point& p) { return p.allFinite(); }))
+        throw Error(std::string("The ") + which +
+                    " mesh has coordinates that are no finite numbers. Remove these vertices first.");
+    if (surface.triangles.empty())
+        throw Error(std::string("The ") + which +
+                    " mesh has no faces, so it has no surface to measure. Reconstruct the surface first.");
+}
+
+/// The positions of `measured` for the sites of the reference; empty where vertices that share one there do not here.
+Points corresponding_sites(const Surface& measured, const Welded& reference)
+{
+    Points sites(reference.surface.points.size());
+    std::vector<char> known(sites.size(), 0);
+    for (std::size_t v = 0; v < measured.points.size(); ++v) {
+        const int site = reference.site_of_vertex[v];
+        if (site < 0)
+            continue;
+        if (known[site] && sites[site] != measured.points[v])
+            return {};
+        sites[site] = measured.points[v];
+        known[site] = 1;
+    }
+    return sites;
+}
+
+Pair make_pair_of(const Surface& reference, const Surface& measured)
+{
+    Welded first = weld(reference);
+    if (reference.points.size() == measured.points.size() && reference.triangles == measured.triangles) {
+        Points sites = corresponding_sites(measured, first);
+        if (!sites.empty())
+            return {first.surface, {std::move(sites), first.surface.triangles}, first.site_of_vertex, true};
+    }
+    Welded second = weld(measured);
+    return {std::move(first.surface), std::move(second.surface), std::move(second.site_of_vertex), false};
+}
+
+/// Points spread over a surface: as many on every part as it has of the area, one at a random place in each of equal
+/// shares.
+class Sampling {
+public:
+    Sampling(const Surface& surface, int count) : surface_(surface), count_(count)
+    {
+        cumulative_.reserve(surface.triangles.size());
+        for (const Triangle& t : surface.triangles)
+            cumulative_.push_back(area_ += scaled_normal(surface.points, t).norm());
+    }
+
+    struct Place {
+        int face;
+        Point weights; ///< of the face's corners
+    };
+
+    [[nodiscard]] Place place(int number, Stream& draws) const
+    {
+        const double at = (number + uniform(draws)) / count_ * area_;
+        const auto found = std::lower_bound(cumulative_.begin(), cumulative_.end(), at);
+        const auto face =
+            std::min<std::ptrdiff_t>(found - cumulative_.begin(), static_cast<std::ptrdiff_t>(cumulative_.size()) - 1);
+        const double r = std::sqrt(uniform(draws));
+        const double s = uniform(draws);
+        return {static_cast<int>(face), Point(1 - r, r * (1 - s), r * s)};
+    }
+
+    [[nodiscard]] Point point(const Place& place, const Surface& surface) const
+    {
+        const Triangle& t = surface.triangles[place.face];
+        return place.weights[0] * surface.points[t[0]] + place.weights[1] * surface.points[t[1]] +
+               place.weights[2] * surface.points[t[2]];
+    }
+    [[nodiscard]] Point point(const Place& place) const { return point(place, surface_); }
+
+private:
+    const Surface& surface_;
+    int count_;
+    double area_ = 0; ///< twice
+    std::vector<double> cumulative_;
+};
+
+struct OneWay {
+    double squares = 0;
+    double sum = 0;
+    double most = 0;
+};
+
+/// Distances of samples of `from` to `to`. Where both have the same faces, a point is no further than its counterpart:
+/// that tells the search where to stop.
+OneWay sampled(const Surface& from, const Surface& to, const ClosestSearch& nearest, bool same_faces, int samples,
+               std::uint64_t seed, const char* purpose)
+{
+    constexpr int chunk = 4096;
+    const Sampling sampling(from, samples);
+    const double slack = 1e-12 * bounding_diagonal(to);
+    std::vector<OneWay> partial((samples + chunk - 1) / chunk);
+    for_chunks(samples, chunk, [&](int begin, int end) {
+        Stream draws = seeded_stream(seed, purpose, begin / chunk);
+        OneWay& part = partial[begin / chunk];
+        for (int i = begin; i < end; ++i) {
+            const Sampling::Place place = sampling.place(i, draws);
+            const Point p = sampling.point(place);
+            double distance = 0;
+            if (same_faces) {
+                const double bound = (sampling.point(place, to) - p).norm();
+                distance = std::min(bound, nearest(p, 1.000001 * bound + slack).distance);
+            } else
+                distance = nearest(p).distance;
+            part.squares += distance * distance;
+            part.sum += distance;
+            part.most = std::max(part.most, distance);
+        }
+    });
+    OneWay total;
+    for (const OneWay& part : partial) {
+        total.squares += part.squares;
+        total.sum += part.sum;
+        total.most = std::max(total.most, part.most);
+    }
+    return total;
+}
+
+std::vector<ClosestPoint> from_vertices(const Points& points, const ClosestSearch& nearest)
+{
+    std::vector<ClosestPoint> result(points.size());
+    for_each_index(static_cast<int>(points.size()), [&](int v) { result[v] = nearest(points[v]); });
+    return result;
+}
+
+double most(const std::vector<ClosestPoint>& found)
+{
+    double result = 0;
+    for (const ClosestPoint& point : found)
+        result = std::max(result, point.distance);
+    return result;
+}
+
+std::optional<double> signal_to_noise(const Pair& pair, const std::vector<ClosestPoint>& nearest)
+{
+    const Points& original = pair.reference.points;
+    Point mean = Point::Zero();
+    for (const Point& p : original)
+        mean += p / static_cast<double>(original.size());
+    double signal = 0;
+    double noise = 0;
+    for (std::size_t v = 0; v < pair.measured.points.size(); ++v) {
+        const Point& counterpart = pair.same_faces ? original[v] : nearest[v].point;
+        signal += (counterpart - mean).squaredNorm();
+        noise += (pair.measured.points[v] - counterpart).squaredNorm();
+    }
+    if (!(noise > 0 && signal > 0))
+        return std::nullopt;
+    return 10 * std::log10(signal / noise);
+}
+
+double area(const Surface& surface)
+{
+    double twice = 0;
+    for (const Triangle& t : surface.triangles)
+        twice += scaled_normal(surface.points, t).norm();
+    return twice / 2;
+}
+
+void compare_sizes(const Pair& pair, DistortionReport& result)
+{
+    const double before = area(pair.reference);
+    result.area_change = (area(pair.measured) - before) / before;
+    if (!is_closed_and_oriented(pair.reference) || !is_closed_and_oriented(pair.measured)) {
+        result.warnings.emplace_back("No change of volume: a mesh is open, or its faces are not oriented alike.");
+        return;
+    }
+    const Point centre = pair.reference.points[0];
+    const double volume = signed_volume(pair.reference, centre);
+    if (std::abs(volume) > 1e-12 * before * bounding_diagonal(pair.reference))
+        result.volume_change = (signed_volume(pair.measured, centre) - volume) / volume;
+    else
+        result.warnings.emplace_back("No change of volume: the reference mesh encloses none.");
+}
+
+} // namespace
+
+DistortionReport measure(const Surface& reference, const Surface& measured, const DistortionOptions& options,
+                         const Progress& progress)
+{
+    if (options.samples < 0)
+        throw Error("Samples is " + std::to_string(options.samples) +
+                    ", but must be 1 or more, or 0 for ten per vertex of the larger mesh.");
+    check(reference, "reference");
+    check(measured, "measured");
+    report(progress, 0, "Search trees");
+    const Pair pair = make_pair_of(reference, measured);
+    const ClosestSearch to_reference(pair.reference);
+    const ClosestSearch to_measured(pair.measured);
+
+    DistortionReport result;
+    const std::size_t larger = std::max(pair.reference.points.size(), pair.measured.points.size());
+    result.samples = options.samples > 0
+                         ? options.samples
+                         : static_cast<int>(std::min<std::size_t>(10 * larger, std::numeric_limits<int>::max()));
+    report(progress, 5, "Reference to measured");
+    const OneWay forward =
+        sampled(pair.reference, pair.measured, to_measured, pair.same_faces, result.samples, options.seed, "forward");
+    report(progress, 35, "Measured to reference");
+    const OneWay backward =
+        sampled(pair.measured, pair.reference, to_reference, pair.same_faces, result.samples, options.seed, "backward");
+    report(progress, 65, "Vertices");
+    const std::vector<ClosestPoint> of_measured = from_vertices(pair.measured.points, to_reference);
+    const std::vector<ClosestPoint> of_reference = from_vertices(pair.reference.points, to_measured);
+
+    result.mrms = std::sqrt(std::max(forward.squares, backward.squares) / result.samples);
+    result.mean = std::max(forward.sum, backward.sum) / result.samples;
+    result.hausdorff = std::max({forward.most, backward.most, most(of_measured), most(of_reference)});
+    const double diagonal = bounding_diagonal(pair.reference);
+    result.mrms_relative = result.mrms / diagonal;
+    result.mean_relative = result.mean / diagonal;
+    result.hausdorff_relative = result.hausdorff / diagonal;
+    result.snr_db = signal_to_noise(pair, of_measured);
+    compare_sizes(pair, result);
+
+    report(progress, 75, "Structural distance");
+    result.msdm = msdm(pair.reference, pair.measured, pair.same_faces);
+    if (!pair.same_faces)
+        result.warnings.emplace_back(
+            "The meshes differ in their faces: SNR and MSDM compare vertices with the nearest points instead.");
+
+    result.distance.assign(measured.points.size(), 0);
+    for (std::size_t v = 0; v < measured.points.size(); ++v)
+        if (const int site = pair.site_of_vertex[v]; site >= 0)
+            result.distance[v] = of_measured[site].distance;
+    report(progress, 100, "Structural distance");
+    return result;
+}
+
+} // namespace vcg_ext

@@ -1,0 +1,200 @@
+#include "perceptual.h"
+
+#include "../geometry/closest.h"
+#include "../geometry/neighbours.h"
+#include "../mesh.h"
+#include "../parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vcg/complex/algorithms/update/curvature.h>
+
+namespace vcg_ext {
+
+namespace {
+
+/// vcglib walks along borders, and where more than two faces share an edge it never arrives. So such edges become
+/// borders.
+void cut_at_non_manifold_edges(Mesh& mesh)
+{
+    std::vector<std::pair<Face*, int>> cut;
+    for (Face& face : mesh.face)
+        for (int edge = 0; edge < 3; ++edge)
+            if (!vcg::face::IsManifold(face, edge))
+                cut.emplace_back(&face, edge);
+    for (const auto& [face, edge] : cut) {
+        face->FFp(edge) = face;
+        face->FFi(edge) = static_cast<char>(edge);
+    }
+}
+
+/// Curvatures of two meshes over one window, and what MSDM wants to know of them.
+class Window {
+public:
+    void clear() { *this = Window(); }
+    void add(double x, double y)
+    {
+        ++count_;
+        x_ += x;
+        y_ += y;
+        xx_ += x * x;
+        yy_ += y * y;
+        xy_ += x * y;
+    }
+    /// \param c what curvature is too small to see
+    [[nodiscard]] double cubed_distance(double c) const
+    {
+        const double n = count_;
+        const double mx = x_ / n;
+        const double my = y_ / n;
+        const double sx = std::sqrt(std::max(0.0, xx_ / n - mx * mx));
+        const double sy = std::sqrt(std::max(0.0, yy_ / n - my * my));
+        const double covariance = xy_ / n - mx * my;
+        const double luminance = std::abs(mx - my) / (std::max(mx, my) + c);
+        const double contrast = std::abs(sx - sy) / (std::max(sx, sy) + c);
+        const double structure = std::abs(sx * sy - covariance) / (sx * sy + c * c);
+        const auto cube = [](double v) { return v * v * v; };
+        return 0.4 * cube(luminance) + 0.4 * cube(contrast) + 0.2 * cube(structure);
+    }
+
+private:
+    int count_ = 0;
+    double x_ = 0, y_ = 0, xx_ = 0, yy_ = 0, xy_ = 0;
+};
+
+/// Visits what lies within `radius` of vertex after vertex, along the edges.
+class Windows {
+public:
+    Windows(const Surface& surface, double radius)
+        : surface_(surface), ring_(neighbours(static_cast<int>(surface.points.size()), surface.triangles)),
+          radius_(radius)
+    {
+    }
+
+    /// Calls `visit(a, b, t)` for the places a + t (b - a) between two vertices.
+    template <class Visit>
+    void operator()(int centre, std::vector<int>& queue, std::vector<int>& seen, const Visit& visit) const
+    {
+        const Point& o = surface_.points[centre];
+        queue.assign(1, centre);
+        seen[centre] = centre;
+        for (std::size_t next = 0; next < queue.size(); ++next) {
+            const int v = queue[next];
+            visit(v, v, 0.0);
+            for (const int* other = ring_.begin(v); other != ring_.end(v); ++other) {
+                if (seen[*other] == centre)
+                    continue;
+                if ((surface_.points[*other] - o).norm() <= radius_) {
+                    seen[*other] = centre;
+                    queue.push_back(*other);
+                } else
+                    visit(v, *other, leaves(surface_.points[v] - o, surface_.points[*other] - o));
+            }
+        }
+    }
+
+private:
+    /// The part of the way from `a`, inside, to `b`, outside, at which the sphere is met: |a + t (b - a)| = radius.
+    [[nodiscard]] double leaves(const Point& a, const Point& b) const
+    {
+        const Point way = b - a;
+        const double half = a.dot(way);
+        const double length = way.squaredNorm();
+        return (std::sqrt(std::max(0.0, half * half + length * (radius_ * radius_ - a.squaredNorm()))) - half) / length;
+    }
+
+    const Surface& surface_;
+    Neighbours ring_;
+    double radius_;
+};
+
+/// Mean of the cubed local distances, over windows of `surface`; `x` and `y` are the two curvatures of its vertices.
+double mean_cubed_distance(const Surface& surface, const std::vector<double>& x, const std::vector<double>& y,
+                           double radius, double c)
+{
+    const int vertices = static_cast<int>(surface.points.size());
+    const Windows windows(surface, radius);
+    constexpr int chunk = 16384;
+    std::vector<double> sums((vertices + chunk - 1) / chunk);
+    for_chunks(vertices, chunk, [&](int begin, int end) {
+        std::vector<int> queue;
+        std::vector<int> seen(vertices, -1);
+        Window window;
+        for (int v = begin; v < end; ++v) {
+            window.clear();
+            windows(v, queue, seen,
+                    [&](int a, int b, double t) { window.add(x[a] + t * (x[b] - x[a]), y[a] + t * (y[b] - y[a])); });
+            sums[begin / chunk] += window.cubed_distance(c);
+        }
+    });
+    double total = 0;
+    for (const double sum : sums)
+        total += sum;
+    return total / vertices;
+}
+
+/// The vertex value of `from`, at the places nearest to the vertices of `to`.
+std::vector<double> carried_over(const std::vector<double>& value, const Surface& from, const Surface& to)
+{
+    const ClosestSearch nearest(from);
+    std::vector<double> result(to.points.size());
+    for_each_index(static_cast<int>(to.points.size()), [&](int v) {
+        const ClosestPoint at = nearest(to.points[v]);
+        const Triangle& t = from.triangles[at.face];
+        const Point normal = scaled_normal(from.points, t);
+        double sum = 0;
+        for (int k = 0; k < 3; ++k) {
+            const Point& b = from.points[t[(k + 1) % 3]];
+            const Point& c = from.points[t[(k + 2) % 3]];
+            const double weight = (b - at.point).cross(c - at.point).dot(normal) / normal.squaredNorm();
+            sum += std::clamp(weight, 0.0, 1.0) * value[t[k]];
+        }
+        result[v] = sum;
+    });
+    return result;
+}
+
+} // namespace
+
+std::vector<double> mean_curvature(const Surface& surface)
+{
+    // vcglib takes areas below a fixed size for none, and works in float: so it gets the mesh at a size of its own.
+    const double scale = 1000 / bounding_diagonal(surface);
+    Surface scaled = surface;
+    const Point origin = surface.points[surface.triangles[0][0]];
+    for (Point& p : scaled.points)
+        p = scale * (p - origin);
+    Mesh mesh;
+    mesh.face.EnableFFAdjacency();
+    to_mesh(scaled, mesh);
+    vcg::tri::UpdateTopology<Mesh>::FaceFace(mesh);
+    cut_at_non_manifold_edges(mesh);
+    vcg::tri::UpdateCurvature<Mesh>::MeanAndGaussian(mesh);
+    auto curvature = vcg::tri::Allocator<Mesh>::GetPerVertexAttribute<double>(mesh, "KH");
+    std::vector<double> result(surface.points.size());
+    for (std::size_t v = 0; v < result.size(); ++v)
+        if (const double k = scale * std::abs(curvature[v]); std::isfinite(k))
+            result[v] = k;
+    return result;
+}
+
+double msdm(const Surface& reference, const Surface& measured, bool same_faces, const Progress& progress)
+{
+    Eigen::AlignedBox3d box;
+    for (const Point& p : reference.points)
+        box.extend(p);
+    const double radius = 0.005 * box.diagonal().maxCoeff();
+    const double c = 0.1 / box.diagonal().norm();
+    report(progress, 0, "Curvature");
+    const std::vector<double> x = mean_curvature(reference);
+    const std::vector<double> y = mean_curvature(measured);
+    report(progress, 30, "Structural distance");
+    if (same_faces)
+        return std::cbrt(mean_cubed_distance(reference, x, y, radius, c));
+    const double onto_measured = mean_cubed_distance(measured, carried_over(x, reference, measured), y, radius, c);
+    report(progress, 65, "Structural distance");
+    const double onto_reference = mean_cubed_distance(reference, x, carried_over(y, measured, reference), radius, c);
+    return (std::cbrt(onto_measured) + std::cbrt(onto_reference)) / 2;
+}
+
+} // namespace vcg_ext
