@@ -14,74 +14,115 @@ namespace vcg_ext {
 
 namespace {
 
-struct Task {
-    const Cover& cover;
-    Point centre;
-    const std::vector<double>& targets;
-    std::vector<int> movable; ///< the vertices that have a target
+/// Places vertices on their spheres. What a vertex got it keeps in later calls, as long as centre and target are the
+/// same.
+class Placement {
+public:
+    Placement(std::shared_ptr<const Cover> cover, const EmbedOptions& options)
+        : cover_(std::move(cover)), options_(options), targets_(cover_->points.size(), NAN), best_(cover_->points),
+          iterations_(cover_->points.size(), 0), converged_(cover_->points.size(), 1)
+    {
+    }
+
+    /// \param targets norms about `centre`; NaN where a vertex stays
+    Points place(const Point& centre, const std::vector<double>& targets, EmbedReport& report)
+    {
+        const std::vector<int> changed = take_up(centre, targets);
+        if (options_.method == Method::LM)
+            place_by_sweeps(changed);
+        else
+            place_each(changed, best_, [&](int v) {
+                return options_.method == Method::QSP ? place_selective(*cover_, v, centre_, targets_[v])
+                                                      : radial_point(cover_->points[v], centre_, targets_[v]);
+            });
+        if (options_.method == Method::LM)
+            report.solver = summary();
+        Points points = best_;
+        report.guarded_vertices = guard(points);
+        return points;
+    }
+
+private:
+    /// The vertices that have a target and are not where it asks them to be.
+    std::vector<int> take_up(const Point& centre, const std::vector<double>& targets)
+    {
+        const bool keep = centre == centre_ && (options_.method != Method::LM || options_.sphere_sweeps == 1);
+        std::vector<int> changed;
+        for (std::size_t v = 0; v < targets.size(); ++v) {
+            if (std::isnan(targets[v]))
+                best_[v] = cover_->points[v];
+            else if (!keep || targets[v] != targets_[v])
+                changed.push_back(static_cast<int>(v));
+        }
+        centre_ = centre;
+        targets_ = targets;
+        return changed;
+    }
+
+    template <class Place>
+    static void place_each(const std::vector<int>& vertices, Points& points, const Place& place)
+    {
+        for_each_index(static_cast<int>(vertices.size()), [&](int i) { points[vertices[i]] = place(vertices[i]); });
+    }
+
+    void place_by_sweeps(const std::vector<int>& vertices)
+    {
+        const SphereWeights& weights = options_.sphere_weights;
+        for (int sweep = 0; sweep < options_.sphere_sweeps; ++sweep) {
+            const Points neighbours = sweep == 0 ? Points() : best_;
+            place_each(vertices, best_, [&](int v) {
+                const Eigen::Matrix3d energy =
+                    sweep == 0 ? sphere_energy(*cover_, v, weights) : sphere_energy(*cover_, neighbours, v, weights);
+                const SphereSolution solution = place_on_sphere(cover_->points[v], centre_, targets_[v], energy);
+                iterations_[v] = solution.iterations;
+                converged_[v] = solution.converged;
+                return solution.point;
+            });
+        }
+    }
+
+    [[nodiscard]] SolverSummary summary() const
+    {
+        SolverSummary result;
+        double total = 0;
+        int moved = 0;
+        for (std::size_t v = 0; v < targets_.size(); ++v)
+            if (!std::isnan(targets_[v])) {
+                ++moved;
+                total += iterations_[v];
+                result.max_iterations = std::max(result.max_iterations, iterations_[v]);
+                result.not_converged += !converged_[v];
+            }
+        result.mean_iterations = moved > 0 ? total / moved : 0;
+        return result;
+    }
+
+    /// Steps back from folds: on the target's own sphere towards Cho's point first, then from there to the old place.
+    /// \return how many vertices took a step
+    int guard(Points& points) const
+    {
+        constexpr int on_sphere = 4;
+        constexpr int steps = 12;
+        const auto retreat = [&](int v, int step) -> Point {
+            const Point& old = cover_->points[v];
+            const Point cho = radial_point(old, centre_, targets_[v]);
+            const double part = static_cast<double>(step) / on_sphere;
+            if (step <= on_sphere)
+                return radial_point(best_[v] + (cho - best_[v]) * part, centre_, targets_[v]);
+            return old + (cho - old) * std::exp2(on_sphere - step);
+        };
+        const std::vector<int> step = guard_folds(*cover_, points, steps, retreat);
+        return static_cast<int>(std::count_if(step.begin(), step.end(), [](int s) { return s > 0; }));
+    }
+
+    std::shared_ptr<const Cover> cover_;
+    EmbedOptions options_;
+    Point centre_ = Point::Zero();
+    std::vector<double> targets_;
+    Points best_; ///< before the guard
+    std::vector<int> iterations_;
+    std::vector<char> converged_;
 };
-
-template <class Place>
-Points place_each(const Task& task, const Place& place)
-{
-    Points points = task.cover.points;
-    for_each_index(static_cast<int>(task.movable.size()), [&](int i) {
-        const int v = task.movable[i];
-        points[v] = place(i, v, task.targets[v]);
-    });
-    return points;
-}
-
-Points place_sphere(const Task& task, const EmbedOptions& options, SolverSummary& summary)
-{
-    std::vector<int> iterations(task.movable.size(), 0);
-    std::vector<char> converged(task.movable.size(), 1);
-    Points current = task.cover.points;
-    for (int sweep = 0; sweep < options.sphere_sweeps; ++sweep)
-        current = place_each(task, [&](int i, int v, double norm) {
-            const Eigen::Matrix3d energy = sphere_energy(task.cover, current, v, options.sphere_weights);
-            const SphereSolution solution = place_on_sphere(task.cover.points[v], task.centre, norm, energy);
-            iterations[i] = solution.iterations;
-            converged[i] = solution.converged;
-            return solution.point;
-        });
-    double total = 0;
-    for (const int n : iterations)
-        total += n;
-    summary.mean_iterations = iterations.empty() ? 0 : total / static_cast<double>(iterations.size());
-    summary.max_iterations = iterations.empty() ? 0 : *std::max_element(iterations.begin(), iterations.end());
-    summary.not_converged = static_cast<int>(std::count(converged.begin(), converged.end(), 0));
-    return current;
-}
-
-Points place_best(const Task& task, const EmbedOptions& options, EmbedReport& report)
-{
-    if (options.method == Method::LM)
-        return place_sphere(task, options, report.solver.emplace());
-    if (options.method == Method::QSP)
-        return place_each(task,
-                          [&](int, int v, double norm) { return place_selective(task.cover, v, task.centre, norm); });
-    return place_each(task,
-                      [&](int, int v, double norm) { return radial_point(task.cover.points[v], task.centre, norm); });
-}
-
-/// Steps back from a fold: on the target's own sphere towards Cho's point first, then from there towards the old place.
-int guard(const Task& task, Points& points)
-{
-    constexpr int on_sphere = 4;
-    constexpr int steps = 12;
-    const Points best = points;
-    const auto retreat = [&](int v, int step) -> Point {
-        const Point& old = task.cover.points[v];
-        const double norm = task.targets[v];
-        const Point cho = radial_point(old, task.centre, norm);
-        if (step <= on_sphere)
-            return radial_point(best[v] + (cho - best[v]) * (static_cast<double>(step) / on_sphere), task.centre, norm);
-        return old + (cho - old) * std::exp2(on_sphere - step);
-    };
-    const std::vector<int> step = guard_folds(task.cover, points, steps, retreat);
-    return static_cast<int>(std::count_if(step.begin(), step.end(), [](int s) { return s > 0; }));
-}
 
 } // namespace
 
@@ -97,19 +138,12 @@ ScalarMethod norm_method(const Surface& surface, const EmbedOptions& options, do
     method.fixed.resize(surface.points.size());
     for (std::size_t v = 0; v < surface.points.size(); ++v)
         method.fixed[v] = frame->norms[v] == frame->minimum || frame->norms[v] == frame->maximum;
-    method.place = [cover, frame, options, &report](const std::vector<double>& targets) {
-        Task task{*cover, frame->centre, targets, {}};
-        for (std::size_t v = 0; v < targets.size(); ++v)
-            if (!std::isnan(targets[v]))
-                task.movable.push_back(static_cast<int>(v));
-        Points points = place_best(task, options, report);
-        report.guarded_vertices = guard(task, points);
-        return points;
-    };
+    method.place = [frame, placement = std::make_shared<Placement>(cover, options), &report](
+                       const std::vector<double>& targets) { return placement->place(frame->centre, targets, report); };
     method.read = [&surface, trim, bits = options.bits](const Points& stored) {
         return shells(stored, surface.triangles, trim, bits).carriers;
     };
-    method.reframe = [cover, frame, trim, read = method.read, bits = options.bits](const Points& stored) {
+    method.reframe = [cover, frame, trim, bits = options.bits](const Points& stored) {
         *frame = shells(stored, cover->triangles, trim, bits);
         return cut_range(norms(cover->points, frame->centre), frame->minimum, frame->maximum, trim, bits);
     };

@@ -99,7 +99,7 @@ ScalarResult embed_scalar(const ScalarMethod& method, Statistic statistic, const
         best.rounds = r;
         if (best_margin >= enough * alpha)
             break;
-        if (method.reframe)
+        if (method.reframe && r == 1) // later rounds push single carriers in a frame that holds still
             cover = method.reframe(stored);
     }
     return best;

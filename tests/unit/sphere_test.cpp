@@ -152,6 +152,15 @@ TEST(SphereEnergy, IsTheThesisSumOfSquares)
     }
 }
 
+TEST(SphereEnergy, OnTheCoverIsThatOfNeighboursThatDidNotMove)
+{
+    const Surface surface = load("fandisk.off");
+    const Cover cover(surface);
+    for (const int v : {0, 100, 5000})
+        EXPECT_TRUE(sphere_energy(cover, v, thesis_weights)
+                        .isApprox(sphere_energy(cover, surface.points, v, thesis_weights), 1e-14));
+}
+
 TEST(PlaceOnSphere, StaysWhereTheNormIsRight)
 {
     const Point v(1, 2, 2);

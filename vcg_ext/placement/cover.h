@@ -11,12 +11,16 @@ struct Cover {
         : points(surface.points), triangles(surface.triangles),
           around(vertex_faces(static_cast<int>(points.size()), triangles)), normals(face_normals(points, triangles))
     {
+        areas.reserve(triangles.size());
+        for (const Triangle& t : triangles)
+            areas.push_back(scaled_normal(points, t).norm());
     }
 
     const Points& points;
     const std::vector<Triangle>& triangles;
     VertexFaces around;
-    Points normals; ///< of faces, unit; zero where a face has no area
+    Points normals;            ///< of faces, unit; zero where a face has no area
+    std::vector<double> areas; ///< of faces, doubled
 };
 
 /// Where (5.21) and Cho start: `v` moved along the ray from `centre` to the distance `norm`.
@@ -33,8 +37,7 @@ struct Cover {
     const Point& n = cover.normals[face];
     if (n.isZero())
         return false; // without an area there is no side to turn away from
-    const double area = scaled_normal(cover.points, cover.triangles[face]).norm();
-    return n.dot(scaled_normal_now) < std::max(0.5 * scaled_normal_now.norm(), area / 20);
+    return n.dot(scaled_normal_now) < std::max(0.5 * scaled_normal_now.norm(), cover.areas[face] / 20);
 }
 
 } // namespace vcg_ext

@@ -9,6 +9,18 @@ namespace vcg_ext {
 
 namespace {
 
+struct Angle {
+    explicit Angle(double radians)
+    {
+        const double half_sin = std::sin(radians / 2);
+        const double half_cos = std::cos(radians / 2);
+        squared_half_sin = half_sin * half_sin;
+        sin = 2 * half_sin * half_cos;
+        cos = 1 - 2 * squared_half_sin;
+    }
+    double squared_half_sin, sin, cos;
+};
+
 /// The three residuals R (v^ - v) with A = R^T R, over two angles.
 ///
 /// The frame has the ray to `v` on the equator, far from the poles. Angles and residuals are scaled so that the step is
@@ -31,33 +43,32 @@ public:
         const double trace = energy.trace();
         const Eigen::Matrix3d regular = energy + Eigen::Matrix3d::Identity() * (1e-12 * trace);
         const double at_cho = axes_.col(0).dot(regular * axes_.col(0));
-        factor_ = Eigen::LLT<Eigen::Matrix3d>(regular / at_cho).matrixU() * axes_;
+        const Eigen::Matrix3d upper = Eigen::LLT<Eigen::Matrix3d>(regular / at_cho).matrixU();
+        factor_.noalias() = upper.lazyProduct(axes_);
     }
 
     bool operator()(const double* angles, double* residuals, double* jacobian) const
     {
         const double unit = step_ / norm_;
-        const double phi = unit * angles[0];
-        const double theta = unit * angles[1];
-        const double cp = std::cos(phi), sp = std::sin(phi), ct = std::cos(theta), st = std::sin(theta);
+        const Angle phi(unit * angles[0]);
+        const Angle theta(unit * angles[1]);
         // (v^ - v) / step in the frame. cos cos - 1 written so that small angles do not cancel.
-        const double sp2 = std::sin(phi / 2), st2 = std::sin(theta / 2);
-        const Point move(sign_ - 2 * (st2 * st2 + ct * sp2 * sp2) / unit, ct * sp / unit, st / unit);
+        const Point move(sign_ - 2 * (theta.squared_half_sin + theta.cos * phi.squared_half_sin) / unit,
+                         theta.cos * phi.sin / unit, theta.sin / unit);
         Eigen::Map<Point>(residuals, 3) = factor_ * move;
         if (jacobian) {
             Eigen::Map<Eigen::Matrix<double, 3, 2>> j(jacobian);
-            j.col(0) = factor_ * Point(-ct * sp, ct * cp, 0);
-            j.col(1) = factor_ * Point(-st * cp, -st * sp, ct);
+            j.col(0) = factor_ * Point(-theta.cos * phi.sin, theta.cos * phi.cos, 0);
+            j.col(1) = factor_ * Point(-theta.sin * phi.cos, -theta.sin * phi.sin, theta.cos);
         }
         return true;
     }
 
     [[nodiscard]] Point point(const Eigen::Vector2d& angles) const
     {
-        const double phi = step_ / norm_ * angles[0];
-        const double theta = step_ / norm_ * angles[1];
-        return centre_ + norm_ * (axes_ * Point(std::cos(theta) * std::cos(phi), std::cos(theta) * std::sin(phi),
-                                                std::sin(theta)));
+        const Angle phi(step_ / norm_ * angles[0]);
+        const Angle theta(step_ / norm_ * angles[1]);
+        return centre_ + norm_ * (axes_ * Point(theta.cos * phi.cos, theta.cos * phi.sin, theta.sin));
     }
 
 private:
@@ -89,6 +100,14 @@ Eigen::Matrix3d sphere_energy(const Cover& cover, const Points& current, int v, 
             sum += (k2 / squared) * now * now.transpose();
     }
     return sum;
+}
+
+Eigen::Matrix3d sphere_energy(const Cover& cover, int v, const SphereWeights& weights)
+{
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (const int* f = cover.around.begin(v); f != cover.around.end(v); ++f)
+        sum += cover.normals[*f] * cover.normals[*f].transpose();
+    return (weights[0] + weights[1]) * sum + weights[2] * Eigen::Matrix3d::Identity();
 }
 
 SphereSolution place_on_sphere(const Point& v, const Point& centre, double norm, const Eigen::Matrix3d& energy)

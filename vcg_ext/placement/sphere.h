@@ -20,6 +20,9 @@ struct SphereSolution {
     bool converged = false;
 };
 
+/// The same with the neighbours still on the cover, where n^_j = n_j.
+[[nodiscard]] Eigen::Matrix3d sphere_energy(const Cover& cover, int v, const SphereWeights& weights);
+
 /// Minimises d^T A d over the sphere |v^ - centre| = norm by Levenberg-Marquardt in two angles ((5.31)-(5.37)), from
 /// Cho's point. \param energy A, symmetric and positive semi-definite  \pre v != centre
 [[nodiscard]] SphereSolution place_on_sphere(const Point& v, const Point& centre, double norm,
