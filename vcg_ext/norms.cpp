@@ -140,11 +140,13 @@ ScalarMethod norm_method(const Surface& surface, const EmbedOptions& options, do
         method.fixed[v] = frame->norms[v] == frame->minimum || frame->norms[v] == frame->maximum;
     method.place = [frame, placement = std::make_shared<Placement>(cover, options), &report](
                        const std::vector<double>& targets) { return placement->place(frame->centre, targets, report); };
-    method.read = [&surface, trim, bits = options.bits](const Points& stored) {
-        return shells(stored, surface.triangles, trim, bits).carriers;
+    const auto marked = std::make_shared<Shells>();
+    method.read = [marked, &surface, trim, bits = options.bits](const Points& stored) {
+        *marked = shells(stored, surface.triangles, trim, bits);
+        return marked->carriers;
     };
-    method.reframe = [cover, frame, trim, bits = options.bits](const Points& stored) {
-        *frame = shells(stored, cover->triangles, trim, bits);
+    method.reframe = [cover, frame, marked, trim, bits = options.bits](const Points&) { // those that it read last
+        *frame = *marked;
         return cut_range(norms(cover->points, frame->centre), frame->minimum, frame->maximum, trim, bits);
     };
     return method;

@@ -119,7 +119,7 @@ SphereSolution place_on_sphere(const Point& v, const Point& centre, double norm,
     solver.options.max_num_iterations = 500;
     solver.options.parameter_tolerance = 1e-8;
     solver.options.gradient_tolerance = 1e-8;
-    solver.options.function_tolerance = 1e-12;
+    solver.options.function_tolerance = 1e-9;
     Eigen::Vector2d angles(0, 0);
     const auto& summary = solver.Solve(residual, &angles);
     return {residual.point(angles), summary.iterations,
