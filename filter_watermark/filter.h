@@ -26,6 +26,9 @@ struct Filter {
 
 extern const Filter embed_filter;
 extern const Filter detect_filter;
+extern const Filter attack_filter;
+extern const Filter measure_filter;
 
 /// All filters; a filter's place here is its id.
-inline const std::array<const Filter*, 2> all_filters = {&embed_filter, &detect_filter};
+inline const std::array<const Filter*, 4> all_filters = {&embed_filter, &detect_filter, &attack_filter,
+                                                         &measure_filter};

@@ -33,15 +33,30 @@ vcg_ext::Surface read_surface(const CMeshO& mesh)
     return surface;
 }
 
+namespace {
+
+/// Calls `write(vertex, value)` for the vertices that are not deleted and the values, in order.
+template <class Values, class Write>
+void for_each_vertex(MeshModel& layer, const Values& values, const Write& write)
+{
+    auto value = values.begin();
+    for (CVertexO& vertex : layer.cm.vert)
+        if (!vertex.IsD())
+            write(vertex, *value++);
+}
+
+void put_points(MeshModel& layer, const vcg_ext::Points& points)
+{
+    for_each_vertex(layer, points, [](CVertexO& vertex, const vcg_ext::Point& point) {
+        vertex.P() = Point3m(Scalarm(point.x()), Scalarm(point.y()), Scalarm(point.z()));
+    });
+}
+
+} // namespace
+
 void write_positions(MeshModel& layer, const vcg_ext::Points& points)
 {
-    auto point = points.begin();
-    for (CVertexO& vertex : layer.cm.vert) {
-        if (!vertex.IsD()) {
-            vertex.P() = Point3m(Scalarm(point->x()), Scalarm(point->y()), Scalarm(point->z()));
-            ++point;
-        }
-    }
+    put_points(layer, points);
     update_box_and_normals(layer);
 }
 
@@ -49,12 +64,31 @@ void write_classes(MeshModel& layer, const std::vector<int>& class_of_vertex)
 {
     layer.updateDataMask(MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR);
     const int classes = 1 + *std::max_element(class_of_vertex.begin(), class_of_vertex.end());
-    auto number = class_of_vertex.begin();
-    for (CVertexO& vertex : layer.cm.vert) {
-        if (!vertex.IsD()) {
-            vertex.Q() = *number;
-            vertex.C() = *number < 0 ? vcg::Color4b(vcg::Color4b::LightGray) : vcg::Color4b::Scatter(classes, *number);
-            ++number;
-        }
-    }
+    for_each_vertex(layer, class_of_vertex, [classes](CVertexO& vertex, int number) {
+        vertex.Q() = number;
+        vertex.C() = number < 0 ? vcg::Color4b(vcg::Color4b::LightGray) : vcg::Color4b::Scatter(classes, number);
+    });
+}
+
+void write_distances(MeshModel& layer, const std::vector<double>& distance_of_vertex)
+{
+    layer.updateDataMask(MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR);
+    for_each_vertex(layer, distance_of_vertex, [](CVertexO& vertex, double distance) { vertex.Q() = distance; });
+    vcg::tri::UpdateColor<CMeshO>::PerVertexQualityRamp(layer.cm);
+}
+
+void write_surface(MeshModel& layer, const vcg_ext::Surface& surface)
+{
+    CMeshO& mesh = layer.cm;
+    layer.clearDataMask(MeshModel::MM_FACEFACETOPO | MeshModel::MM_VERTFACETOPO | MeshModel::MM_WEDGTEXCOORD |
+                        MeshModel::MM_VERTTEXCOORD | MeshModel::MM_FACECOLOR | MeshModel::MM_FACEQUALITY |
+                        MeshModel::MM_POLYGONAL);
+    mesh.Clear();
+    vcg::tri::Allocator<CMeshO>::AddVertices(mesh, surface.points.size());
+    vcg::tri::Allocator<CMeshO>::AddFaces(mesh, surface.triangles.size());
+    put_points(layer, surface.points);
+    for (std::size_t f = 0; f < surface.triangles.size(); ++f)
+        for (int corner = 0; corner < 3; ++corner)
+            mesh.face[f].V(corner) = &mesh.vert[surface.triangles[f][corner]];
+    update_box_and_normals(layer);
 }

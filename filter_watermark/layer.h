@@ -15,3 +15,9 @@ void write_positions(MeshModel& layer, const vcg_ext::Points& points);
 /// Gives the vertices that are not deleted a quality each, in order, and colours from it: a colour of its own for each
 /// whole number, grey for -1.
 void write_classes(MeshModel& layer, const std::vector<int>& class_of_vertex);
+
+/// Gives the vertices that are not deleted a quality each, in order, and the colour ramp of it.
+void write_distances(MeshModel& layer, const std::vector<double>& distance_of_vertex);
+
+/// Puts another mesh into the layer, whose name and matrix stay.
+void write_surface(MeshModel& layer, const vcg_ext::Surface& surface);

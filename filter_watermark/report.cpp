@@ -1,5 +1,7 @@
 #include "report.h"
 
+#include <QFileInfo>
+
 #include <algorithm>
 
 Json to_json(const vcg_ext::EmbedReport& report)
@@ -48,6 +50,30 @@ Json to_json(const vcg_ext::DetectReport& report)
     if (report.present)
         json["present"] = *report.present;
     json["seconds"] = report.seconds;
+    json["warnings"] = report.warnings;
+    return json;
+}
+
+Json to_json(const vcg_ext::AttackReport& report)
+{
+    return {{"attack", name(report.attack)}, {"amount", report.amount},     {"iterations", report.iterations},
+            {"seed", report.seed},           {"vertices", report.vertices}, {"faces", report.faces},
+            {"warnings", report.warnings}};
+}
+
+Json to_json(const vcg_ext::DistortionReport& report)
+{
+    Json json = {{"mrms", report.mrms},           {"mrms_relative", report.mrms_relative},
+                 {"hausdorff", report.hausdorff}, {"hausdorff_relative", report.hausdorff_relative},
+                 {"mean", report.mean},           {"mean_relative", report.mean_relative}};
+    if (report.snr_db)
+        json["snr_db"] = *report.snr_db;
+    if (report.msdm)
+        json["msdm"] = *report.msdm;
+    if (report.volume_change)
+        json["volume_change"] = *report.volume_change;
+    json["area_change"] = report.area_change;
+    json["samples"] = report.samples;
     json["warnings"] = report.warnings;
     return json;
 }
@@ -121,8 +147,13 @@ QStringList to_lines(const Json& results)
 
 ReportFile::ReportFile(const QString& path) : file_(path)
 {
-    if (!path.isEmpty() && !file_.open(QIODevice::WriteOnly))
-        fail();
+    if (path.isEmpty())
+        return;
+    const QFileInfo target(path);
+    if (target.exists() && !target.isFile())
+        fail("it is no file"); // renaming would put a file in a device's place
+    if (!file_.open(QIODevice::WriteOnly))
+        fail(file_.errorString());
 }
 
 void ReportFile::write(const Json& results)
@@ -131,14 +162,14 @@ void ReportFile::write(const Json& results)
         return;
     const std::string text = results.dump(2) + "\n";
     file_.write(text.data(), qint64(text.size()));
-    if (!file_.commit())
-        fail();
+    if (!file_.flush() || !file_.commit()) // commit() alone overlooks a disk that fills up in between
+        fail(file_.errorString());
 }
 
-void ReportFile::fail() const
+void ReportFile::fail(const QString& reason) const
 {
     throw vcg_ext::Error("The report cannot be written to '" + file_.fileName().toStdString() +
-                         "': " + file_.errorString().toStdString() +
+                         "': " + reason.toStdString() +
                          ". Name a file in a folder that exists and that you may write to, or leave Report empty. "
                          "The mesh is unchanged.");
 }

@@ -2,11 +2,15 @@
 #include "filter.h"
 
 #include <QSaveFile>
+#include <vcg_ext/attack/attack.h>
+#include <vcg_ext/metric/distortion.h>
 #include <vcg_ext/watermark.h>
 
 /// The results under the names that scripts rely on.
 Json to_json(const vcg_ext::EmbedReport& report);
 Json to_json(const vcg_ext::DetectReport& report);
+Json to_json(const vcg_ext::AttackReport& report);
+Json to_json(const vcg_ext::DistortionReport& report);
 
 /// The same for pymeshlab's dict, which cannot take texts: `bits` becomes a vector of 0 and 1, `warnings` their count,
 /// `seconds` and `solver` a number for each part (`seconds_placement`). Other texts are in the log and the report only.
@@ -25,7 +29,7 @@ public:
     void write(const Json& results);
 
 private:
-    [[noreturn]] void fail() const;
+    [[noreturn]] void fail(const QString& reason) const;
 
     QSaveFile file_;
 };

@@ -5,38 +5,36 @@ using vcg_ext::Statistic;
 
 namespace {
 
-constexpr Method methods[] = {Method::LM, Method::QSP, Method::Cho, Method::Geodesic, Method::Spectral};
-constexpr Statistic statistics[] = {Statistic::Mean, Statistic::Variance};
-
-template <class Choices>
-QStringList names(const Choices& choices)
-{
-    QStringList list;
-    for (const auto& choice : choices)
-        list += name(choice);
-    return list;
-}
-
-template <class Choice, std::size_t count>
-Choice choose(const Choice (&choices)[count], const RichParameterList& values, const QString& parameter)
-{
-    const int index = values.getEnum(parameter);
-    if (index < 0 || index >= int(count))
-        throw vcg_ext::Error(
-            QString("%1 %2 does not exist; choose 0 to %3.").arg(parameter).arg(index).arg(count - 1).toStdString());
-    return choices[index];
-}
+const std::vector<Method> methods = {Method::LM, Method::QSP, Method::Cho, Method::Geodesic, Method::Spectral};
+const std::vector<Statistic> statistics = {Statistic::Mean, Statistic::Variance};
 
 } // namespace
+
+int read_place(const RichParameterList& values, const QString& name, int count)
+{
+    const int place = values.getEnum(name);
+    if (place < 0 || place >= count)
+        throw vcg_ext::Error(
+            QString("%1 %2 does not exist; choose 0 to %3.").arg(name).arg(place).arg(count - 1).toStdString());
+    return place;
+}
+
+std::uint64_t read_seed(const RichParameterList& values)
+{
+    const int seed = values.getInt("Seed");
+    if (seed < 0)
+        throw vcg_ext::Error(QString("Seed is %1; give 0 or more.").arg(seed).toStdString());
+    return std::uint64_t(seed);
+}
 
 void add_carrier_parameters(RichParameterList& list, const QString& bits_tip)
 {
     list.addParam(
-        RichEnum("Method", 0, names(methods), "Method",
+        RichEnum("Method", 0, choice_names(methods), "Method",
                  "L-M: vertex norms, the least visible; QSP and Cho: vertex norms, faster and more visible; Geodesic: "
                  "distances along the surface; Spectral: survives smoothing. Detection needs the same one."));
     list.addParam(
-        RichEnum("Statistic", 0, names(statistics), "Statistic",
+        RichEnum("Statistic", 0, choice_names(statistics), "Statistic",
                  "What a carrier's values tell: their mean, or their variance (less visible, less robust). Detection "
                  "needs the same one. Spectral ignores it."));
     list.addParam(
@@ -52,8 +50,8 @@ void add_carrier_parameters(RichParameterList& list, const QString& bits_tip)
 
 void read_carrier_parameters(const RichParameterList& values, vcg_ext::CarrierOptions& options)
 {
-    options.method = choose(methods, values, "Method");
-    options.statistic = choose(statistics, values, "Statistic");
+    options.method = read_choice(values, "Method", methods);
+    options.statistic = read_choice(values, "Statistic", statistics);
     options.bits = values.getInt("Bits");
     options.trim = read_number(values, "Trim");
 }

@@ -3,6 +3,28 @@
 
 #include <vcg_ext/watermark.h>
 
+/// The names of all choices, for a RichEnum.
+template <class Choice>
+QStringList choice_names(const std::vector<Choice>& choices)
+{
+    QStringList list;
+    for (const Choice choice : choices)
+        list += name(choice);
+    return list;
+}
+
+/// The place that a RichEnum names. \throw vcg_ext::Error where it is none of `count`
+int read_place(const RichParameterList& values, const QString& name, int count);
+
+template <class Choice>
+Choice read_choice(const RichParameterList& values, const QString& name, const std::vector<Choice>& choices)
+{
+    return choices[read_place(values, name, int(choices.size()))];
+}
+
+/// \throw vcg_ext::Error where it is negative
+std::uint64_t read_seed(const RichParameterList& values);
+
 /// What Embed and Detect have in common: Method, Statistic, Key, Bits, Trim.
 void add_carrier_parameters(RichParameterList& list, const QString& bits_tip);
 void read_carrier_parameters(const RichParameterList& values, vcg_ext::CarrierOptions& options);

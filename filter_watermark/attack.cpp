@@ -1,0 +1,62 @@
+#include "layer.h"
+#include "report.h"
+#include "shared_parameters.h"
+
+#include <vcg_ext/attack/attack.h>
+
+namespace {
+
+constexpr const char* info = "Does to the mesh what a user, a file format or an adversary might, to try out what a "
+                             "watermark survives: noise, smoothing, "
+                             "simplification, quantization, remeshing, cropping and others.<br>"
+                             "The same seed gives the same result. A selection is ignored. Attacks that rebuild the "
+                             "mesh drop what it carried beside its "
+                             "shape (colours, texture coordinates).";
+
+RichParameterList parameters(const MeshDocument&)
+{
+    QStringList names;
+    QString amounts = "How much; -1 takes the usual amount.";
+    for (const vcg_ext::Attack attack : vcg_ext::all_attacks()) {
+        const vcg_ext::AttackRange& range = vcg_ext::range(attack);
+        names += name(attack);
+        if (range.amount_is)
+            amounts += QString("<br>%1: %2 (%3)").arg(name(attack), range.amount_is).arg(range.amount);
+    }
+    RichParameterList list;
+    list.addParam(RichEnum("Attack", 0, names, "Attack", "What to do to the mesh."));
+    list.addParam(RichFloat("Amount", -1, "Amount", amounts));
+    list.addParam(RichInt("Iterations", -1, "Iterations",
+                          "How often, for Smooth, Remesh and Subdivide; -1 takes the usual number."));
+    list.addParam(RichInt("Seed", 0, "Seed", "Of all random draws, 0 or more."));
+    return list;
+}
+
+Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext::Progress& progress)
+{
+    MeshModel& layer = current_layer_or_error(document);
+    vcg_ext::AttackOptions options;
+    options.attack = read_choice(values, "Attack", vcg_ext::all_attacks());
+    options.amount = read_number(values, "Amount");
+    options.iterations = values.getInt("Iterations");
+    options.seed = read_seed(values);
+
+    vcg_ext::Surface surface = read_surface(layer.cm);
+    const vcg_ext::AttackReport report = apply_attack(surface, options, progress);
+    if (report.positions_only)
+        write_positions(layer, surface.points);
+    else
+        write_surface(layer, surface);
+    return to_json(report);
+}
+
+} // namespace
+
+const Filter attack_filter = {"Watermark: Attack",
+                              "apply_watermark_attack",
+                              HostInterface::Remeshing,
+                              HostInterface::SINGLE_MESH,
+                              int(MeshModel::MM_ALL),
+                              info,
+                              parameters,
+                              run};

@@ -1,0 +1,59 @@
+#include "layer.h"
+#include "report.h"
+#include "shared_parameters.h"
+
+#include <vcg_ext/metric/distortion.h>
+
+namespace {
+
+constexpr const char* info =
+    "Compares the current layer with a reference: MRMS, Hausdorff and mean distance as Metro takes them (also relative "
+    "to the "
+    "reference's bounding-box diagonal), signal to noise, the perceptual distance MSDM, changes of volume and area.<br>"
+    "The vertices get their distance to the reference as quality, and a colour from it: red is near, blue is far. "
+    "Layers are compared as they lie in their files, without their matrices.<br>"
+    "See:<br><i>Paolo Cignoni, Claudio Rocchini, Roberto Scopigno</i><br><b>\"Metro: measuring error on simplified "
+    "surfaces\"</b>"
+    "<br>Computer Graphics Forum 17(2), 1998<br>"
+    "<i>Guillaume Lavou&eacute; and others</i><br><b>\"Perceptually driven 3D distance metrics with application to "
+    "watermarking\"</b><br>SPIE Applications of Digital Image Processing XXIX, 2006";
+
+RichParameterList parameters(const MeshDocument& document)
+{
+    RichParameterList list;
+    list.addParam(layer_parameter("Reference", document, "Reference", "The layer to compare the current one with."));
+    list.addParam(RichInt("Samples", 0, "Samples", "Points per direction; 0 is ten per vertex of the larger mesh."));
+    list.addParam(RichInt("Seed", 0, "Seed", "Of the sampling, 0 or more."));
+    add_report_parameter(list);
+    return list;
+}
+
+Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext::Progress& progress)
+{
+    MeshModel& layer = current_layer_or_error(document);
+    const MeshModel* reference = layer_value(values, "Reference", document);
+    if (!reference)
+        throw vcg_ext::Error("There is no such reference layer. Open the reference mesh, and choose its layer.");
+    vcg_ext::DistortionOptions options;
+    options.samples = values.getInt("Samples");
+    options.seed = read_seed(values);
+    ReportFile file(values.getSaveFileName("Report"));
+
+    const vcg_ext::DistortionReport report =
+        measure(read_surface(reference->cm), read_surface(layer.cm), options, progress);
+    const Json results = to_json(report);
+    file.write(results);
+    write_distances(layer, report.distance);
+    return results;
+}
+
+} // namespace
+
+const Filter measure_filter = {"Watermark: Measure Distortion",
+                               "get_watermark_distortion",
+                               HostInterface::Measure,
+                               HostInterface::FIXED,
+                               MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR,
+                               info,
+                               parameters,
+                               run};
