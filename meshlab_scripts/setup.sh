@@ -17,7 +17,7 @@ packages=(
     libeigen3-dev libceres-dev libboost-dev libsodium-dev nlohmann-json3-dev
     meshlab libcgal-demo python3 python3-venv
     libgtest-dev libbenchmark-dev clang-format clang-tidy
-    xvfb xauth libgl1-mesa-dri openbox xdotool imagemagick
+    xvfb xauth libgl1-mesa-dri openbox xdotool imagemagick locales
 )
 
 install_packages() {

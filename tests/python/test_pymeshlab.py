@@ -1,0 +1,242 @@
+"""The filters in pymeshlab: what they return, what they refuse, and what they leave alone."""
+
+import json
+import os
+import resource
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pymeshlab
+import pytest
+from doors import DETECT, EMBED, FILTERS, MESHES, ROOT, PyMeshLab, Refused, Value
+
+KEY = "correct horse battery staple"
+MESSAGE = "(c) 2026"
+MARK: dict[str, Value] = {"Message": MESSAGE, "Key": KEY}
+BUNNY = MESHES / "bunny00.off"
+FANDISK = MESHES / "fandisk.off"
+
+
+def opened(*paths: Path) -> pymeshlab.MeshSet:
+    PyMeshLab()
+    meshes = pymeshlab.MeshSet()
+    for path in paths:
+        meshes.load_new_mesh(str(path))
+    return meshes
+
+
+@pytest.fixture(scope="module")
+def marked(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    output = tmp_path_factory.mktemp("marked") / "bunny.ply"
+    PyMeshLab().run(EMBED, BUNNY, output, **MARK)
+    return output
+
+
+def test_the_parameters_are_the_contract() -> None:
+    names = {python: list(parameters) for python, parameters in FILTERS.values()}
+    PyMeshLab()
+    assert set(names) <= set(pymeshlab.filter_list())
+
+
+def test_parameters_left_out_take_their_defaults(marked: Path) -> None:
+    found = opened(marked).apply_filter("get_watermark", key=KEY, expected=MESSAGE)
+    assert found["present"] is True
+    assert found["detection_ratio"] == 1
+    assert found["p_value"] == 2.0**-64
+
+
+def test_the_dict_has_numbers_and_vectors(marked: Path) -> None:
+    found = opened(marked).apply_filter("get_watermark", key=KEY)
+    assert np.packbits(found["bits"].astype(bool)).tobytes() == MESSAGE.encode()
+    assert found["soft"].shape == found["samples"].shape == (64,)
+    assert found["warnings"] == 0
+    embedded = opened(FANDISK).apply_filter("apply_coord_watermark", key=KEY, message=MESSAGE)
+    assert {"carriers", "samples_min", "rounds", "moved_vertices", "max_displacement", "mrms"} <= embedded.keys()
+
+
+def test_the_report_has_all_results(tmp_path: Path) -> None:
+    report = PyMeshLab().run(EMBED, FANDISK, Report=str(tmp_path / "report.json"), **MARK)
+    assert list(report) == [
+        "method", "statistic", "bits", "strength", "trim", "carriers", "samples_min", "detection_ratio", "rounds",
+        "moved_vertices", "guarded_vertices", "max_displacement", "mrms", "mrms_relative", "seconds", "solver",
+        "warnings",
+    ]  # fmt: skip
+    assert report["method"] == "L-M"
+    assert report["statistic"] == "Mean"
+    assert set(report["solver"]) == {"mean_iterations", "max_iterations", "not_converged"}
+    assert [path.name for path in tmp_path.iterdir()] == ["report.json"]
+
+
+@pytest.mark.parametrize("message", ["hex:c0ffee", "bits:011001100110", "grüße"])
+def test_messages_come_back_as_they_were_given(tmp_path: Path, message: str) -> None:
+    output = tmp_path / "marked.ply"
+    PyMeshLab().run(EMBED, BUNNY, output, Message=message, Method="Cho", Key=KEY, Bits=0)
+    bits = {"hex:c0ffee": 24, "bits:011001100110": 12, "grüße": 56}[message]
+    found = PyMeshLab().run(DETECT, output, Method="Cho", Key=KEY, Bits=bits, Expected=message)
+    assert found["detection_ratio"] == 1
+    assert found["message"] == {"bits:011001100110": "hex:666"}.get(message, message)
+
+
+def test_a_wrong_key_and_an_unmarked_mesh_are_not_present(marked: Path) -> None:
+    assert PyMeshLab().run(DETECT, marked, Key="another", Expected=MESSAGE)["present"] is False
+    assert PyMeshLab().run(DETECT, BUNNY, Key=KEY, Expected=MESSAGE)["present"] is False
+
+
+def test_keys_from_file_and_environment(tmp_path: Path, marked: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "key").write_text(KEY)
+    monkeypatch.setenv("WATERMARK_KEY", KEY)
+    for key in (f"file:{tmp_path}/key", "env:WATERMARK_KEY"):
+        assert PyMeshLab().run(DETECT, marked, Key=key, Expected=MESSAGE)["present"] is True
+
+
+FAILURES: list[tuple[dict[str, Value], str]] = [
+    ({"Key": ""}, "key is empty"),
+    ({"Key": "file:/no/such/key"}, "key"),
+    ({"Key": "env:NO_SUCH_VARIABLE_AT_ALL"}, "NO_SUCH_VARIABLE_AT_ALL"),
+    ({"Message": ""}, "message"),
+    ({"Message": "far too long for sixty-four bits"}, "64"),
+    ({"Bits": 1025}, "1024"),
+    ({"Trim": 0.6}, "0.45"),
+    ({"Strength": 0.7}, "must lie above 0"),
+    ({"Report": "/no/such/folder/report.json"}, "/no/such/folder/report.json"),
+    ({"Report": "/dev/full"}, "/dev/full"),
+]
+
+
+@pytest.mark.parametrize(("values", "text"), FAILURES)
+def test_a_failure_says_why_and_changes_nothing(values: dict[str, Value], text: str) -> None:
+    meshes = opened(FANDISK)
+    before = meshes.current_mesh().vertex_matrix().tobytes()
+    with pytest.raises(Refused, match="apply_coord_watermark") as refused:
+        PyMeshLab().apply(meshes, EMBED, **{**MARK, **values})
+    assert text.lower() in str(refused.value).lower()
+    assert KEY not in str(refused.value)
+    assert meshes.current_mesh().vertex_matrix().tobytes() == before
+
+
+def test_a_full_disk_is_an_error_and_changes_nothing(tmp_path: Path) -> None:
+    """The limit of this process' file size stands in for the disk's."""
+    meshes = opened(FANDISK)
+    before = meshes.current_mesh().vertex_matrix().tobytes()
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100, limits[1]))
+    try:
+        with pytest.raises(Refused, match="report cannot be written"):
+            PyMeshLab().apply(meshes, EMBED, Report=str(tmp_path / "report.json"), **MARK)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    assert meshes.current_mesh().vertex_matrix().tobytes() == before
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_no_mesh_and_an_empty_mesh_are_refused() -> None:
+    emptied = opened(FANDISK)
+    emptied.set_selection_all()
+    emptied.meshing_remove_selected_vertices_and_faces()
+    for meshes, text in ((opened(), "at least one mesh"), (emptied, "face")):
+        for filter_name, message in ((EMBED, {"Message": MESSAGE}), (DETECT, {})):
+            with pytest.raises(Refused, match=text):
+                PyMeshLab().apply(meshes, filter_name, Key=KEY, **message)
+
+
+def test_all_else_of_the_users_stays(tmp_path: Path) -> None:
+    meshes = opened(FANDISK, BUNNY)
+    meshes.set_current_mesh(0)
+    meshes.compute_color_by_function_per_vertex(x="x*50", y="100", z="y*50")
+    meshes.compute_scalar_by_function_per_vertex(q="z")
+    meshes.compute_selection_by_condition_per_vertex(condselect="x < 0.1")
+    meshes.compute_texcoord_by_function_per_vertex(u="x", v="y")
+    meshes.compute_matrix_from_rotation(rotaxis="Z axis", angle=30, freeze=False)
+
+    def rest() -> list[np.ndarray]:
+        mesh = meshes.mesh(0)
+        return [
+            mesh.face_matrix(), mesh.vertex_color_matrix(), mesh.vertex_scalar_array(), mesh.vertex_selection_array(),
+            mesh.vertex_tex_coord_matrix(), mesh.transform_matrix(), meshes.mesh(1).vertex_matrix(),
+        ]  # fmt: skip
+
+    before, positions = rest(), meshes.mesh(0).vertex_matrix()
+    PyMeshLab().apply(meshes, EMBED, **MARK)
+    moved = meshes.mesh(0)
+    assert not np.array_equal(moved.vertex_matrix(), positions)
+    for old, new in zip(before, rest(), strict=True):
+        np.testing.assert_array_equal(old, new)
+    assert moved.bounding_box().diagonal() == pytest.approx(
+        np.linalg.norm(np.ptp(moved.vertex_matrix(), axis=0)), rel=0.3
+    )
+    corner = moved.vertex_matrix()[moved.face_matrix()]
+    normals = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    long = np.linalg.norm(normals, axis=1) > 1e-12
+    normals = normals[long] / np.linalg.norm(normals[long], axis=1)[:, None]
+    turned = normals @ moved.transform_matrix()[:3, :3].T  # pymeshlab hands out normals with the layer's matrix applied
+    np.testing.assert_allclose(moved.face_normal_matrix()[long], turned, atol=1e-6)
+
+
+def test_deleted_elements_do_not_count() -> None:
+    """A mesh from which another component was deleted reads like the mesh alone."""
+    meshes = opened(BUNNY)
+    PyMeshLab().apply(meshes, EMBED, **MARK)
+    alone = PyMeshLab().apply(meshes, DETECT, Key=KEY)
+    faces = meshes.current_mesh().face_number()
+    meshes.load_new_mesh(str(FANDISK))
+    meshes.generate_by_merging_visible_meshes(mergevertices=False)
+    meshes.compute_selection_by_condition_per_face(condselect=f"fi >= {faces}")
+    meshes.meshing_remove_selected_vertices_and_faces()
+    assert meshes.current_mesh().face_number() == faces
+    assert PyMeshLab().apply(meshes, DETECT, Key=KEY)["soft"] == pytest.approx(alone["soft"], rel=1e-9)
+
+
+def distinct(points: np.ndarray) -> int:
+    return len(np.unique(points, axis=0))
+
+
+def test_an_stl_stays_closed_and_its_mark_survives_into_ply(tmp_path: Path) -> None:
+    """STL files share no vertices: those at one position must move together."""
+    soup, output = tmp_path / "soup.stl", tmp_path / "marked.stl"
+    meshes = opened(BUNNY)
+    meshes.save_current_mesh(str(soup))
+    meshes = pymeshlab.MeshSet()
+    meshes.load_new_mesh(str(soup), unify_vertices=False)
+    assert meshes.current_mesh().vertex_number() == 3 * meshes.current_mesh().face_number()
+    sites = distinct(meshes.current_mesh().vertex_matrix())
+    PyMeshLab().apply(meshes, EMBED, **MARK)
+    assert distinct(meshes.current_mesh().vertex_matrix()) == sites
+    meshes.save_current_mesh(str(output))
+    found = PyMeshLab().run(DETECT, output, Expected=MESSAGE, Key=KEY)
+    assert found["detection_ratio"] == 1
+
+    meshes = opened(output)
+    meshes.meshing_merge_close_vertices(threshold=pymeshlab.PercentageValue(0))
+    meshes.save_current_mesh(str(tmp_path / "marked.ply"))
+    found = PyMeshLab().run(DETECT, tmp_path / "marked.ply", Expected=MESSAGE, Key=KEY)
+    assert found["detection_ratio"] == 1
+
+
+def test_carriers_are_shown(marked: Path) -> None:
+    meshes = opened(marked)
+    positions = meshes.current_mesh().vertex_matrix()
+    found = PyMeshLab().apply(meshes, DETECT, Key=KEY, ShowCarriers=True)
+    carrier = meshes.current_mesh().vertex_scalar_array().astype(int)
+    assert list(np.bincount(carrier[carrier >= 0], minlength=64)) == found["samples"]
+    colors = meshes.current_mesh().vertex_color_matrix()
+    for number in (-1, 0, 63):
+        assert distinct(colors[carrier == number]) == 1
+    np.testing.assert_array_equal(meshes.current_mesh().vertex_matrix(), positions)
+
+
+def test_a_decimal_comma_does_not_matter(tmp_path: Path) -> None:
+    """In a process of its own, with a German locale made for it. (MeshLab itself misreads text formats there.)"""
+    opened(FANDISK).save_current_mesh(str(tmp_path / "cover.ply"))
+    subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", tmp_path / "de_DE.UTF-8"], check=True)
+    program = f"""
+import locale
+locale.setlocale(locale.LC_ALL, "")
+assert locale.localeconv()["decimal_point"] == ","
+from doors import EMBED, PyMeshLab
+PyMeshLab().run(EMBED, {str(tmp_path / "cover.ply")!r}, Report={str(tmp_path / "report.json")!r}, Trim=0.1, **{MARK!r})
+"""
+    environment = {**os.environ, "LOCPATH": str(tmp_path), "LC_ALL": "de_DE.UTF-8", "PYTHONPATH": str(ROOT / "tests")}
+    subprocess.run([sys.executable, "-c", program], env=environment, check=True, timeout=120)
+    assert json.loads((tmp_path / "report.json").read_text())["trim"] == 0.1

@@ -1,0 +1,136 @@
+"""Regression through meshlabserver scripts: embed, write a file, detect from the file."""
+
+from pathlib import Path
+
+import pytest
+from doors import DETECT, EMBED, MESHES, ROOT, STATISTICS, MeshLabServer, Refused, Value
+
+KEY = "correct horse battery staple"
+MESSAGE = "(c) 2026"
+BUNNY = MESHES / "bunny00.off"
+MARK: dict[str, Value] = {"Method": "Cho", "Key": KEY}
+
+pytestmark = pytest.mark.usefixtures("display")
+
+
+@pytest.fixture(scope="session")
+def marked(tmp_path_factory: pytest.TempPathFactory, display: str) -> Path:
+    """bunny00 with MESSAGE."""
+    output = tmp_path_factory.mktemp("marked") / "bunny.ply"
+    MeshLabServer().run(EMBED, BUNNY, output, Message=MESSAGE, **MARK)
+    return output
+
+
+@pytest.mark.parametrize("extension", ["ply", "off", "stl"])
+@pytest.mark.parametrize("statistic", STATISTICS)
+def test_every_bit_is_read_back_from_the_file(tmp_path: Path, extension: str, statistic: str) -> None:
+    output = tmp_path / f"marked.{extension}"
+    door = MeshLabServer()
+    embedded = door.run(EMBED, BUNNY, output, Message=MESSAGE, Statistic=statistic, **MARK)
+    found = door.run(DETECT, output, Expected=MESSAGE, Statistic=statistic, **MARK)
+    assert embedded["detection_ratio"] == 1
+    assert found["message"] == MESSAGE
+    assert found["bits"] == embedded["bits"]
+    assert found["detection_ratio"] == 1
+    assert found["p_value"] == 2.0**-64
+    assert found["present"] is True
+
+
+def test_distortion_is_that_of_the_published_method(tmp_path: Path) -> None:
+    report = MeshLabServer().run(EMBED, BUNNY, tmp_path / "m.ply", Message=MESSAGE, Trim=0.1, Strength=0.1, **MARK)
+    assert 2.5e-4 < report["mrms_relative"] < 3.3e-4
+
+
+def test_without_an_expected_message_nothing_is_claimed(marked: Path) -> None:
+    found = MeshLabServer().run(DETECT, marked, **MARK)
+    assert found["message"] == MESSAGE
+    assert not {"p_value", "present", "detection_ratio"} & found.keys()
+
+
+def test_a_wrong_key_finds_nothing(marked: Path) -> None:
+    found = MeshLabServer().run(DETECT, marked, Method="Cho", Key="another", Expected=MESSAGE)
+    assert found["present"] is False
+    assert found["p_value"] > 1e-3
+
+
+def test_an_unmarked_mesh_has_no_mark() -> None:
+    found = MeshLabServer().run(DETECT, BUNNY, Expected=MESSAGE, **MARK)
+    assert found["present"] is False
+    assert found["p_value"] > 1e-3
+
+
+def test_the_key_reaches_neither_log_nor_report(tmp_path: Path, marked: Path) -> None:
+    (tmp_path / "key").write_text(KEY)
+    door = MeshLabServer()
+    report = tmp_path / "report.json"
+    from_file = door.run(DETECT, marked, Method="Cho", Key=f"file:{tmp_path}/key", Expected=MESSAGE, Report=str(report))
+    assert from_file["present"] is True
+    assert KEY not in report.read_text()
+
+
+def test_the_scripts_for_users(tmp_path: Path) -> None:
+    door = MeshLabServer()
+    scripts = ROOT / "meshlab_scripts"
+    environment = {"WATERMARK_KEY": KEY}
+    output = tmp_path / "marked.ply"
+    embedded = door.arguments("-i", BUNNY, "-s", scripts / "embed.mlx", "-o", output, **environment)
+    assert embedded.returncode == 0, embedded.stdout
+    detected = door.arguments("-i", output, "-s", scripts / "detect.mlx", **environment)
+    assert detected.returncode == 0, detected.stdout
+    assert "present: true" in detected.stdout
+    assert KEY not in embedded.stdout + detected.stdout
+
+
+FAILURES: list[tuple[str, dict[str, Value], str]] = [
+    (EMBED, {"Key": ""}, "key is empty"),
+    (EMBED, {"Key": "file:/no/such/key"}, "key"),
+    (EMBED, {"Key": "env:NO_SUCH_VARIABLE_AT_ALL"}, "NO_SUCH_VARIABLE_AT_ALL"),
+    (EMBED, {"Message": ""}, "message"),
+    (EMBED, {"Message": "far too long for sixty-four bits"}, "64"),
+    (EMBED, {"Message": "hex:XYZ"}, "hex"),
+    (EMBED, {"Message": "bits:012"}, "only 0 and 1"),
+    (EMBED, {"Bits": 1025}, "1024"),
+    (EMBED, {"Bits": -1}, "1024"),
+    (EMBED, {"Trim": 0.6}, "0.45"),
+    (EMBED, {"Strength": 0.7}, "must lie above 0"),
+    (EMBED, {"Report": "/no/such/folder/report.json"}, "/no/such/folder/report.json"),
+    (DETECT, {"Key": ""}, "key is empty"),
+    (DETECT, {"Bits": 0}, "1024"),
+    (DETECT, {"Trim": 0.6}, "0.45"),
+    (DETECT, {"Expected": "far too long for sixty-four bits"}, "64"),
+    (DETECT, {"Report": "/no/such/folder/report.json"}, "/no/such/folder/report.json"),
+]
+
+
+@pytest.mark.parametrize(("filter_name", "values", "text"), FAILURES)
+def test_a_failure_says_why_and_writes_no_mesh(
+    tmp_path: Path, filter_name: str, values: dict[str, Value], text: str
+) -> None:
+    output = tmp_path / "out.ply"
+    message: dict[str, Value] = {"Message": MESSAGE} if filter_name == EMBED else {}
+    with pytest.raises(Refused) as refused:
+        MeshLabServer().run(filter_name, MESHES / "fandisk.off", output, **{**MARK, **message, **values})
+    log = str(refused.value)
+    assert refused.value.exit_code == 255
+    assert f"Problem with filter: {filter_name}" in log
+    reason = next(line for line in log.splitlines() if line.startswith("LOG: 1 Error: "))
+    assert text.lower() in reason.lower()
+    assert KEY not in log
+    assert not output.exists()
+
+
+def test_a_mesh_too_small_for_the_bits_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(Refused) as refused:
+        MeshLabServer().run(EMBED, MESHES / "tetrahedron.off", tmp_path / "out.ply", Message=MESSAGE, **MARK)
+    assert refused.value.exit_code == 255
+    assert "LOG: 1 Error: " in str(refused.value)
+
+
+def test_a_point_cloud_is_refused(tmp_path: Path) -> None:
+    cloud = tmp_path / "cloud.off"
+    cloud.write_text("OFF\n4 0 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n")
+    for filter_name, message in ((EMBED, {"Message": MESSAGE}), (DETECT, {})):
+        with pytest.raises(Refused) as refused:
+            MeshLabServer().run(filter_name, cloud, **message, **MARK)
+        assert refused.value.exit_code == 255
+        assert "face" in str(refused.value)
