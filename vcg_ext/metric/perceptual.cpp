@@ -47,12 +47,15 @@ public:
         const double n = count_;
         const double mx = x_ / n;
         const double my = y_ / n;
-        const double sx = std::sqrt(std::max(0.0, xx_ / n - mx * mx));
-        const double sy = std::sqrt(std::max(0.0, yy_ / n - my * my));
-        const double covariance = xy_ / n - mx * my;
+        const double vx = std::max(0.0, xx_ / n - mx * mx);
+        const double vy = std::max(0.0, yy_ / n - my * my);
+        const double covariance = vx > 0 && vy > 0 ? xy_ / n - mx * my : 0;
+        const double sx = std::sqrt(vx);
+        const double sy = std::sqrt(vy);
+        const double both = std::sqrt(vx * vy); // not sx * sy: of equal curvatures it is their covariance exactly
         const double luminance = std::abs(mx - my) / (std::max(mx, my) + c);
         const double contrast = std::abs(sx - sy) / (std::max(sx, sy) + c);
-        const double structure = std::abs(sx * sy - covariance) / (sx * sy + c * c);
+        const double structure = std::abs(both - covariance) / (both + c * c);
         const auto cube = [](double v) { return v * v * v; };
         return 0.4 * cube(luminance) + 0.4 * cube(contrast) + 0.2 * cube(structure);
     }

@@ -1,0 +1,44 @@
+#include "vcg_ext/random.h"
+
+#include <gtest/gtest.h>
+
+using namespace vcg_ext;
+
+namespace {
+
+TEST(Random, PurposesSeedsAndPartsAreApart)
+{
+    const std::uint64_t first = seeded_stream(1, "noise").next();
+    EXPECT_EQ(first, seeded_stream(1, "noise", 0).next());
+    EXPECT_NE(first, seeded_stream(2, "noise").next());
+    EXPECT_NE(first, seeded_stream(1, "crop").next());
+    EXPECT_NE(first, seeded_stream(1, "noise", 1).next());
+}
+
+TEST(Random, UniformIsUniform)
+{
+    Stream draws = seeded_stream(3, "test");
+    constexpr int n = 100000;
+    std::vector<int> tenths(10, 0);
+    for (int i = 0; i < n; ++i) {
+        const double u = uniform(draws);
+        ASSERT_GE(u, 0);
+        ASSERT_LT(u, 1);
+        ++tenths[static_cast<int>(10 * u)];
+    }
+    double chi_squared = 0;
+    for (const int count : tenths)
+        chi_squared += (count - n / 10.0) * (count - n / 10.0) / (n / 10.0);
+    EXPECT_LT(chi_squared, 33.7); // nine degrees of freedom, p = 1e-4
+}
+
+TEST(Random, DirectionsAreOfUnitLength)
+{
+    Stream draws = seeded_stream(4, "test");
+    for (int i = 0; i < 1000; ++i) {
+        EXPECT_NEAR(direction<3>(draws).norm(), 1, 1e-15);
+        EXPECT_NEAR(direction<4>(draws).norm(), 1, 1e-15);
+    }
+}
+
+} // namespace

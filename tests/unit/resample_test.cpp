@@ -1,0 +1,44 @@
+#include "vcg_ext/attack/resample.h"
+
+#include "support/load.h"
+#include "support/topology.h"
+#include "vcg_ext/geometry/closest.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+using namespace vcg_ext;
+
+namespace {
+
+TEST(Resample, ReachesTheNumberOfVertices)
+{
+    const Surface disk = load("fandisk.off");
+    for (const double part : {0.2, 1.0}) {
+        const int wanted = static_cast<int>(part * static_cast<double>(disk.points.size()));
+        const Surface fresh = resample(disk, wanted);
+        EXPECT_NEAR(static_cast<double>(fresh.points.size()), wanted, 0.01 * wanted);
+        EXPECT_TRUE(is_closed_manifold(fresh));
+    }
+}
+
+TEST(Resample, TakesNewPlacesOnTheSurface)
+{
+    const Surface disk = load("fandisk.off");
+    const auto less = [](const Point& a, const Point& b) {
+        return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+    };
+    const std::set<Point, decltype(less)> old(disk.points.begin(), disk.points.end(), less);
+    const ClosestSearch nearest(disk);
+    const double diagonal = bounding_diagonal(disk);
+    const Surface fresh = resample(disk, 3000);
+    int kept = 0;
+    for (const Point& p : fresh.points) {
+        kept += static_cast<int>(old.count(p));
+        EXPECT_LT(nearest(p).distance, 2e-3 * diagonal);
+    }
+    EXPECT_LT(kept, 300); // some on the creases stay
+}
+
+} // namespace
