@@ -135,9 +135,9 @@ ScalarMethod norm_method(const Surface& surface, const EmbedOptions& options, do
     method.cut = [frame, trim](int count) {
         return cut_range(frame->norms, frame->minimum, frame->maximum, trim, count);
     };
-    method.fixed.resize(surface.points.size());
+    method.mobility.resize(surface.points.size());
     for (std::size_t v = 0; v < surface.points.size(); ++v)
-        method.fixed[v] = frame->norms[v] == frame->minimum || frame->norms[v] == frame->maximum;
+        method.mobility[v] = frame->norms[v] == frame->minimum || frame->norms[v] == frame->maximum ? 0 : 1;
     method.place = [frame, placement = std::make_shared<Placement>(cover, options), &report](
                        const std::vector<double>& targets) { return placement->place(frame->centre, targets, report); };
     const auto marked = std::make_shared<Shells>();

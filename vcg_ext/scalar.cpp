@@ -33,7 +33,7 @@ double side(char bit)
 }
 
 /// The scalar that each vertex is to have. Carriers already beyond their targets are left alone.
-std::vector<double> target_scalars(const Carriers& cover, const std::vector<char>& fixed,
+std::vector<double> target_scalars(const Carriers& cover, const std::vector<double>& mobility,
                                    const std::vector<double>& targets, const std::vector<char>& bits,
                                    Statistic statistic, double guard)
 {
@@ -44,11 +44,14 @@ std::vector<double> target_scalars(const Carriers& cover, const std::vector<char
         if (side(bits[k]) * (now[k] - targets[k]) >= 0)
             return;
         std::vector<double> values;
-        for (const int v : vertices[k])
+        std::vector<double> mobilities;
+        for (const int v : vertices[k]) {
             values.push_back(cover.value[v]);
-        const std::vector<double> mapped = map_histogram(values, statistic, targets[k], guard);
+            mobilities.push_back(mobility[v]);
+        }
+        const std::vector<double> mapped = map_histogram(values, statistic, targets[k], guard, mobilities);
         for (std::size_t i = 0; i < mapped.size(); ++i)
-            if (!fixed[vertices[k][i]])
+            if (mobilities[i] > 0)
                 scalars[vertices[k][i]] = cover.scalar(k, mapped[i]);
     });
     return scalars;
@@ -84,7 +87,7 @@ ScalarResult embed_scalar(const ScalarMethod& method, Statistic statistic, const
     double best_margin = -std::numeric_limits<double>::infinity();
     for (int r = 1; r <= max_rounds; ++r) {
         report(progress, 20 + 60 * (r - 1) / max_rounds, "Placing vertices");
-        Points points = method.place(target_scalars(cover, method.fixed, targets, bits, statistic, guard));
+        Points points = method.place(target_scalars(cover, method.mobility, targets, bits, statistic, guard));
         const Points stored = round(points);
         std::vector<double> margins = read_margins(method.read(stored));
         for (int k = 0; k < cover.count; ++k)

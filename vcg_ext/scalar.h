@@ -10,7 +10,8 @@ struct ScalarMethod {
     Carriers cover; ///< of the unmarked surface
     /// The same, were there `count` of them.
     std::function<Carriers(int count)> cut;
-    std::vector<char> fixed; ///< per vertex: must not move
+    /// Per vertex how much of a move to ask of it, see map_histogram(); 0: it must not move.
+    std::vector<double> mobility;
     double guard = 0; ///< part of a carrier's width that values must keep from its ends, for the frame's own sake
     /// Positions in which the scalar of each vertex is as near as can be to its target; a NaN target lets it stay.
     std::function<Points(const std::vector<double>& targets)> place;

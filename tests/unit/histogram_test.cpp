@@ -52,6 +52,20 @@ TEST_P(Mapping, HasTheExponentOfTheUniformDensity)
     }
 }
 
+TEST_P(Mapping, SparesWhatIsCostly)
+{
+    const std::vector<double> values = uniform(1000);
+    std::vector<double> mobility(1000, 0.5);
+    for (int i = 0; i < 1000; i += 2)
+        mobility[i] = i % 4 == 0 ? 0 : 0.05;
+    const std::vector<double> mapped = map_histogram(values, GetParam(), 0.4, 0, mobility);
+    EXPECT_NEAR(statistic_of(mapped, GetParam()), 0.4, 1e-9);
+    EXPECT_NEAR(mapped[300], values[300], 1e-15);
+    // log beta is shared out in proportion to the mobility.
+    EXPECT_NEAR(std::log(exponent(values[301], mapped[301], GetParam())),
+                10 * std::log(exponent(values[302], mapped[302], GetParam())), 1e-9);
+}
+
 TEST_P(Mapping, KeepsOrderSidesAndGuard)
 {
     const std::vector<double> values = uniform(500);

@@ -12,26 +12,35 @@ namespace {
 /// |x| or |z| to the power beta; from their logarithms, which are taken once.
 class Power {
 public:
-    Power(const std::vector<double>& values, Statistic statistic, double guard)
+    Power(const std::vector<double>& values, const std::vector<double>& mobility, Statistic statistic, double guard)
         : mean_(statistic == Statistic::Mean), least_(mean_ ? guard : 0), most_(mean_ ? 1 - guard : 1 - 2 * guard),
           base_(Eigen::Map<const Eigen::ArrayXd>(values.data(), static_cast<Eigen::Index>(values.size())))
     {
         if (!mean_)
             base_ = 2 * base_ - 1;
         log_ = base_.abs().max(1e-300).log();
+        mobility_ = Eigen::ArrayXd::Ones(base_.size());
+        if (!mobility.empty() && *std::max_element(mobility.begin(), mobility.end()) > 0) {
+            mobility_ = Eigen::Map<const Eigen::ArrayXd>(mobility.data(), base_.size());
+            mobility_ /= mobility_.maxCoeff();
+        }
     }
 
-    [[nodiscard]] Eigen::ArrayXd at(double beta) const { return (beta * log_).exp().max(least_).min(most_); }
-
-    [[nodiscard]] double statistic(double beta) const
+    [[nodiscard]] Eigen::ArrayXd at(double log_beta) const
     {
-        const Eigen::ArrayXd mapped = at(beta);
+        const Eigen::ArrayXd beta = (log_beta * mobility_).exp();
+        return (beta * log_).exp().max(least_).min(most_);
+    }
+
+    [[nodiscard]] double statistic(double log_beta) const
+    {
+        const Eigen::ArrayXd mapped = at(log_beta);
         return mean_ ? mapped.mean() : mapped.square().mean();
     }
 
-    [[nodiscard]] std::vector<double> values(double beta) const
+    [[nodiscard]] std::vector<double> values(double log_beta) const
     {
-        const Eigen::ArrayXd mapped = at(beta);
+        const Eigen::ArrayXd mapped = at(log_beta);
         std::vector<double> result(mapped.size());
         for (Eigen::Index i = 0; i < mapped.size(); ++i)
             result[i] = mean_ ? mapped[i] : (1 + std::copysign(mapped[i], base_[i])) / 2;
@@ -44,27 +53,29 @@ private:
     double most_;
     Eigen::ArrayXd base_;
     Eigen::ArrayXd log_;
+    Eigen::ArrayXd mobility_;
 };
 
 } // namespace
 
-std::vector<double> map_histogram(const std::vector<double>& values, Statistic statistic, double target, double guard)
+std::vector<double> map_histogram(const std::vector<double>& values, Statistic statistic, double target, double guard,
+                                  const std::vector<double>& mobility)
 {
     if (values.empty())
         return {};
-    const Power power(values, statistic, guard);
-    const auto miss = [&](double log_beta) { return power.statistic(std::exp(log_beta)) - target; };
+    const Power power(values, mobility, statistic, guard);
+    const auto miss = [&](double log_beta) { return power.statistic(log_beta) - target; };
 
     // The statistic falls as beta grows.
     constexpr double widest = 6; // beta from 1/400 to 400
     const double first = miss(-widest);
     const double last = miss(widest);
     if (first <= 0 || last >= 0)
-        return power.values(std::exp(first <= 0 ? -widest : widest));
+        return power.values(first <= 0 ? -widest : widest);
     std::uintmax_t steps = 100;
     const auto [low, high] = boost::math::tools::toms748_solve(miss, -widest, widest, first, last,
                                                                boost::math::tools::eps_tolerance<double>(40), steps);
-    return power.values(std::exp((low + high) / 2));
+    return power.values((low + high) / 2);
 }
 
 } // namespace vcg_ext

@@ -9,9 +9,12 @@ namespace vcg_ext {
 /// beta is the root of a monotone function. Values end inside [guard, 1 - guard], so that rounding to float cannot push
 /// one into the neighbour; where the guard keeps the target out of reach, beta is the one that comes nearest.
 ///
-/// \param values in [0, 1]   \param target in (0, 1)   \param guard in [0, 0.5)   \return the mapped values, in the
-/// same order
+/// A value that is costly to move can be spared: its own exponent is beta^mobility, so that the others bear more.
+///
+/// \param values in [0, 1]   \param target in (0, 1)   \param guard in [0, 0.5)
+/// \param mobility one a value, not negative, relative to each other; 0: it must not move; empty: all the same
+/// \return the mapped values, in the same order
 [[nodiscard]] std::vector<double> map_histogram(const std::vector<double>& values, Statistic statistic, double target,
-                                                double guard);
+                                                double guard, const std::vector<double>& mobility = {});
 
 } // namespace vcg_ext

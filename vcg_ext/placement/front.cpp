@@ -3,6 +3,7 @@
 #include "../parallel.h"
 #include "fold_guard.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -13,8 +14,10 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// Inverse of the metric in which the move is shortest: distance from the cover's planes costs 50 times that along
-/// them.
+/// What a move along the cover's planes costs, as a part of what distance from them costs.
+constexpr double along_surface = 0.01;
+
+/// Inverse of the metric in which moves are to be short.
 std::vector<Eigen::Matrix3d> inverse_metrics(const Cover& cover)
 {
     std::vector<Eigen::Matrix3d> inverse(cover.points.size());
@@ -27,9 +30,9 @@ std::vector<Eigen::Matrix3d> inverse_metrics(const Cover& cover)
             normals += weight * n * n.transpose();
             area += weight;
         }
-        Eigen::Matrix3d metric = 0.02 * Eigen::Matrix3d::Identity();
+        Eigen::Matrix3d metric = along_surface * Eigen::Matrix3d::Identity();
         if (area > 0)
-            metric += 0.98 / area * normals;
+            metric += (1 - along_surface) / area * normals;
         inverse[v] = metric.inverse();
     });
     return inverse;
@@ -205,6 +208,17 @@ private:
 };
 
 } // namespace
+
+std::vector<double> front_mobility(const Cover& cover, const std::vector<Arrival>& arrivals)
+{
+    const std::vector<Eigen::Matrix3d> inverse_metric = inverse_metrics(cover);
+    std::vector<double> mobility(arrivals.size());
+    for_each_index(static_cast<int>(mobility.size()), [&](int v) {
+        const Point& g = arrivals[v].gradient;
+        mobility[v] = std::clamp(along_surface * g.dot(inverse_metric[v] * g), 0.0, 1.0);
+    });
+    return mobility;
+}
 
 FrontPlacement place_front(const Cover& cover, const std::vector<Arrival>& arrivals, const std::vector<double>& targets,
                            double tolerance, const FrontOptions& options)

@@ -15,6 +15,10 @@ struct FrontPlacement {
     MoveCounts counts;
 };
 
+/// How freely each vertex follows the front, in (0, 1]: 1 where it can do so without leaving the surface, as on a plane
+/// or along an edge, and near 0 where it must leave it, as across an edge.
+[[nodiscard]] std::vector<double> front_mobility(const Cover& cover, const std::vector<Arrival>& arrivals);
+
 /// Moves vertices, mostly along the surface, until the front of a march reaches each at its target (thesis 4.3.4).
 ///
 /// No face turns by more than 60 degrees (folded()).
