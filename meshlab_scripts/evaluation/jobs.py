@@ -1,0 +1,84 @@
+"""What is measured. A job is one row of the results, and its name the hash of all that the row depends on."""
+
+import hashlib
+import json
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+
+# The thesis' names of the methods: the plugin's Method and Statistic.
+METHODS = {
+    "L-MMean": ("L-M", "Mean"),
+    "L-MVar": ("L-M", "Variance"),
+    "QSPMean": ("QSP", "Mean"),
+    "QSPVar": ("QSP", "Variance"),
+    "ChoMean": ("Cho", "Mean"),
+    "ChoVar": ("Cho", "Variance"),
+    "ProMean": ("Geodesic", "Mean"),
+    "ProVar": ("Geodesic", "Variance"),
+    "Spectral": ("Spectral", "Mean"),
+}
+
+
+@dataclass(frozen=True)
+class Job:
+    """Kinds: `embed` marks a mesh and measures the mark; `attack` attacks the marked mesh and reads the mark;
+    `null` looks for the mark in the unmarked mesh; `align` tells how far an attack moves the mesh's frame.
+    """
+
+    kind: str
+    mesh: str
+    mesh_digest: str
+    plugin_digest: str
+    method: str = ""
+    bits: int = 64
+    strength: float = 0
+    limits: tuple[tuple[str, float], ...] = ()  # the strongest mark within these replaces a given strength
+    trim: float = -1
+    key: int = 0  # number of the key, and seed of the attack
+    attack: str = ""
+    amount: float = -1
+    iterations: int = -1
+    unit: str = ""  # of the amount: the plugin's own, or `mean norm` where it is in distances from the centre
+
+    @property
+    def name(self) -> str:
+        """A hash of all fields."""
+        return hashlib.sha256(json.dumps(asdict(self), sort_keys=True).encode()).hexdigest()[:20]
+
+    @property
+    def mark(self) -> "Job":
+        """The job that makes the mesh that this one attacks."""
+        return replace(self, kind="embed", attack="", amount=-1, iterations=-1, unit="")
+
+    @property
+    def secret(self) -> str:
+        """The key of this number."""
+        return f"evaluation key {self.key}"
+
+    @property
+    def message(self) -> str:
+        """The message that goes with the key, as the plugin takes it."""
+        digest = hashlib.shake_256(f"evaluation message {self.key}".encode()).digest(self.bits // 8 + 1)
+        return "bits:" + "".join(f"{byte:08b}" for byte in digest)[: self.bits]
+
+
+@dataclass(frozen=True)
+class Site:
+    """Where a job finds its inputs, and keeps marked meshes for the jobs that follow. No result depends on it."""
+
+    meshes: Path
+    plugin: Path
+    cache: Path
+
+
+def digest(path: Path) -> str:
+    """A hash of a file's bytes."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()[:20]
+
+
+def mesh_file(folder: Path, mesh: str) -> Path:
+    """The file of a mesh, by its name without extension."""
+    found = sorted(path for path in folder.glob(f"{mesh}.*") if path.suffix in {".off", ".ply", ".stl", ".obj"})
+    if not found:
+        raise FileNotFoundError(f"No mesh '{mesh}' in {folder}. Name a folder that has it with --meshes.")
+    return found[0]

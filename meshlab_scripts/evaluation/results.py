@@ -1,0 +1,47 @@
+"""The results of a protocol as one tidy frame: a row for each case, sorted, the job's fields and then its results."""
+
+from dataclasses import asdict
+
+import pandas as pd
+
+from .protocol import Case
+from .store import Store
+
+CASE_FIELDS = ["experiment", "series"]
+INTERNAL = ["mesh_digest", "plugin_digest"]
+SORT = ["experiment", "mesh", "method", "bits", "strength", "limits", "kind", "series", "amount", "iterations", "key"]
+
+
+def collect(cases: list[Case], store: Store) -> pd.DataFrame:
+    """All cases that the store has; failed ones have an `error`."""
+    stored = store.get(case.job for case in cases)
+    rows = []
+    for case in cases:
+        if case.job.name not in stored:
+            continue
+        results, error = stored[case.job.name]
+        inputs = asdict(case.job)
+        inputs["limits"] = " ".join(f"{name}<={limit:g}" for name, limit in case.job.limits)
+        row = {"experiment": case.experiment, "series": case.series, **inputs}
+        rows.append({**row, "error": error, **{f"used_{k}" if k in row else k: v for k, v in results.items()}})
+    frame = pd.DataFrame(rows).drop(columns=INTERNAL)
+    given = [*CASE_FIELDS, *(name for name in asdict(cases[0].job) if name not in INTERNAL), "error"]
+    measured = sorted({*frame.columns, "detection_ratio", "p_value"} - set(given))
+    return frame.reindex(columns=[*given, *measured]).sort_values(SORT, ignore_index=True)
+
+
+def split_times(frame: pd.DataFrame) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """What is the same in every run, and what is not: the times."""
+    times = [name for name in frame.columns if name.startswith("seconds")]
+    given = [name for name in [*SORT, "error"] if name in frame.columns]
+    timed = frame.loc[frame["kind"] == "embed", [*given, *times]].dropna(axis=1, how="all")
+    return frame.drop(columns=times), timed.drop(columns=["error"])
+
+
+def select(frame: pd.DataFrame, experiment: str, series: str | None = None, where: dict | None = None) -> pd.DataFrame:
+    """The rows of an experiment that did not fail; of one attack, or of the marks themselves where none is named."""
+    chosen = frame[(frame["experiment"] == experiment) & (frame["error"] == "")]
+    chosen = chosen[chosen["kind"] == "embed"] if series is None else chosen[chosen["series"] == series]
+    for name, value in (where or {}).items():
+        chosen = chosen[chosen[name] == value]
+    return chosen

@@ -1,0 +1,109 @@
+"""Markdown tables: ours with the standard deviation over the keys, and the thesis' figure beside it in brackets."""
+
+import math
+
+import pandas as pd
+
+from .jobs import METHODS
+from .protocol import Spec
+from .results import select
+
+# Our meshes that are, or come close to, the thesis' own.
+COUNTERPARTS = {"bunny00": "Bunny", "fandisk": "Fandisk"}
+COLUMN_OPTIONS = {"label", "value", "scale", "digits", "over"}
+
+Cells = list[tuple[float, float]]  # mean and deviation
+
+
+def table(spec: Spec, frame: pd.DataFrame) -> str:
+    """One of the protocol's tables, and after it the columns that ask for it relative to another."""
+    columns = spec["columns"]
+    ours = _measure(spec, frame)
+    published = {
+        row: [(float(value), math.nan) for value in values] for row, values in spec.get("published", {}).items()
+    }
+    text = _markdown(columns, ours, published)
+    relative = [{**column, "digits": 3} for column in columns if "over" in column]
+    if relative:
+        text += f"\n\nRelative to {' and '.join(dict.fromkeys(column['over'] for column in relative))}:\n\n"
+        text += _markdown(relative, _relative(columns, ours), _relative(columns, published))
+    return text
+
+
+def _measure(spec: Spec, frame: pd.DataFrame) -> dict[str, Cells]:
+    rows = {}
+    for row in select(frame, spec["experiment"])[spec["rows"]].drop_duplicates().itertuples(index=False):
+        fixed = dict(zip(spec["rows"], row, strict=True))
+        cells = []
+        for column in spec["columns"]:
+            varied = {name: value for name, value in column.items() if name not in COLUMN_OPTIONS}
+            chosen = select(frame, spec["experiment"], where={**fixed, **varied})
+            values = chosen[column["value"]] * column.get("scale", 1)
+            cells.append((values.mean(), values.std()))
+        rows[" ".join(map(str, row))] = cells
+    return rows
+
+
+def _relative(columns: list[Spec], rows: dict[str, Cells]) -> dict[str, Cells]:
+    relative = {}
+    for row, cells in rows.items():
+        means = {column["label"]: mean for column, (mean, _) in zip(columns, cells, strict=True)}
+        relative[row] = [(means[c["label"]] / means[c["over"]], math.nan) for c in columns if "over" in c]
+    return relative
+
+
+def _markdown(columns: list[Spec], ours: dict[str, Cells], published: dict[str, Cells]) -> str:
+    lines = [["", *(column["label"] for column in columns)]]
+    compared = set()
+    for row, cells in ours.items():
+        mesh, _, rest = row.partition(" ")
+        counterpart = f"{COUNTERPARTS.get(mesh, mesh)} {rest}".strip()
+        compared.add(counterpart)
+        thesis = published.get(counterpart, [(math.nan, math.nan)] * len(columns))
+        lines.append([row, *map(_cell, columns, cells, thesis)])
+    nothing = (math.nan, math.nan)
+    for row, cells in published.items():
+        if row not in compared:
+            lines.append(
+                [f"*{row}*", *(_cell(column, nothing, cell) for column, cell in zip(columns, cells, strict=True))]
+            )
+    return grid(lines)
+
+
+def _cell(column: Spec, ours: tuple[float, float], thesis: tuple[float, float]) -> str:
+    form = f".{column.get('digits', 2)}f"
+    texts = [" ± ".join(f"{value:{form}}" for value in ours if math.isfinite(value))]
+    texts += [f"({value:{form}})" for value in thesis if math.isfinite(value)]
+    return " ".join(filter(None, texts)) or "–"
+
+
+def robustness(frame: pd.DataFrame, experiment: str) -> str:
+    """Mean detection ratio of every attack and amount, a column for each method; empty where there are no attacks."""
+    chosen = frame[(frame["experiment"] == experiment) & (frame["kind"] == "attack") & (frame["error"] == "")]
+    choices = chosen.groupby("method")[["bits", "strength", "limits"]].nunique().max()
+    varied = list(choices[choices > 1].index)
+    keys = ["mesh", *varied, "series", "amount", "iterations"]
+    methods = [method for method in METHODS if method in set(chosen["method"])]
+    if not methods:
+        return ""
+    lines = [["mesh", *varied, "attack", "amount", "iterations", *methods]]
+    for at, row in chosen.pivot_table(index=keys, columns="method", values="detection_ratio").iterrows():
+        labels = ["" if value == -1 else f"{value:g}" if isinstance(value, float) else str(value) for value in at]
+        lines.append([*labels, *("–" if math.isnan(row[method]) else f"{row[method]:.2f}" for method in methods)])
+    return grid(lines)
+
+
+def rates(frame: pd.DataFrame) -> str:
+    """Equal error rates by attack and method."""
+    methods = [method for method in METHODS if method in frame.columns]
+    lines = [["attack", *methods]]
+    for attack, row in frame.iterrows():
+        lines.append([str(attack), *("–" if math.isnan(row[method]) else f"{row[method]:.3f}" for method in methods)])
+    return grid(lines)
+
+
+def grid(lines: list[list[str]]) -> str:
+    """A Markdown table; the first line is its head."""
+    head, *body = lines
+    rule = ["---"] + ["---:"] * (len(head) - 1)
+    return "\n".join("| " + " | ".join(line) + " |" for line in [head, rule, *body])

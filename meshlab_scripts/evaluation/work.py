@@ -1,0 +1,138 @@
+"""How a job is done. Each is a function of the job alone; marked meshes and found strengths are kept for the next."""
+
+import json
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pymeshlab
+
+from . import frames, plugin
+from .jobs import METHODS, Job, Site, mesh_file
+from .plugin import Numbers, Value
+
+STEPS = 10  # of the search for a strength: each halves the interval
+
+
+def run(job: Job, site: Site, after: object = None) -> tuple[Numbers, str]:
+    """The job's results, or why there are none. `after` is only waited for: the job that makes the marked mesh."""
+    try:
+        plugin.load(site.plugin)
+        return WORK[job.kind](job, site), ""
+    except Exception as error:  # whatever it is, it belongs to this job, and the others go on
+        return {}, str(error) or repr(error)
+
+
+def embed(job: Job, site: Site) -> Numbers:
+    """Marks the mesh, measures the mark against the cover, and reads it back from the file."""
+    cover = mesh_file(site.meshes, job.mesh)
+    meshes = plugin.opened(cover, cover)
+    results = plugin.embed(meshes, message=job.message, strength=_strength(job, site), **_carriers(job))
+    plugin.save(meshes, _marked(job, site))
+    results["seconds"] = sum(
+        value for name, value in results.items() if name.startswith("seconds_") and name != "seconds_measure"
+    )
+    results |= plugin.distortion(meshes, reference=0)
+    return results | _read(plugin.opened(_marked(job, site)), job)
+
+
+def attack(job: Job, site: Site) -> Numbers:
+    """Attacks the marked mesh and reads the mark."""
+    marked = _marked(job.mark, site)
+    if not marked.exists():
+        embed(job.mark, site)
+    meshes = plugin.opened(marked)
+    results = _attack(meshes, job)
+    return {name: results[name] for name in ("vertices", "faces")} | _read(meshes, job)
+
+
+def null(job: Job, site: Site) -> Numbers:
+    """Looks for the mark where there is none."""
+    return _read(plugin.opened(mesh_file(site.meshes, job.mesh)), job)
+
+
+def align(job: Job, site: Site) -> Numbers:
+    """How far the attack moves the frame of the mesh: centres in parts of the diagonal, axes in degrees."""
+    meshes = plugin.opened(mesh_file(site.meshes, job.mesh))
+    before = _frames(meshes)
+    diagonal = meshes.current_mesh().bounding_box().diagonal()
+    _attack(meshes, job)
+    after = _frames(meshes)
+    results: Numbers = {}
+    for way in frames.WAYS:
+        distance, angle = frames.shift(before[way], after[way])
+        results |= {f"centre_{way}": distance / diagonal, f"axis_{way}": angle}
+    return results
+
+
+WORK: dict[str, Callable[[Job, Site], Numbers]] = {"embed": embed, "attack": attack, "null": null, "align": align}
+
+
+def _carriers(job: Job) -> dict[str, Value]:
+    method, statistic = METHODS[job.method]
+    return {"method": method, "statistic": statistic, "key": job.secret, "bits": job.bits, "trim": job.trim}
+
+
+def _read(meshes: pymeshlab.MeshSet, job: Job) -> Numbers:
+    found = plugin.detect(meshes, expected=job.message, **_carriers(job))
+    return {name: found[name] for name in ("detection_ratio", "p_value")}
+
+
+def _attack(meshes: pymeshlab.MeshSet, job: Job) -> Numbers:
+    amount = job.amount
+    if job.unit == "mean norm":
+        points = meshes.current_mesh().vertex_matrix()
+        norms = np.linalg.norm(points - points.mean(axis=0), axis=1)
+        amount *= norms.mean() / norms.max()
+    return plugin.attack(meshes, attack=job.attack, amount=amount, iterations=job.iterations, seed=job.key)
+
+
+def _frames(meshes: pymeshlab.MeshSet) -> dict[str, tuple[frames.Array, frames.Array]]:
+    mesh = meshes.current_mesh()
+    return frames.frames(mesh.vertex_matrix(), mesh.face_matrix())
+
+
+def _marked(job: Job, site: Site) -> Path:
+    return site.cache / f"{job.name}.ply"
+
+
+def _strength(job: Job, site: Site) -> float:
+    """The job's strength; or the strongest of its mesh and method, found with key 0, that keeps its limits."""
+    if not job.limits:
+        return job.strength
+    known = site.cache / f"{replace(job, key=0).name}.json"
+    if not known.exists():
+        found = _strongest(replace(job, key=0), site)
+        part = known.with_suffix(".part")
+        part.write_text(json.dumps(found), encoding="utf-8")
+        part.replace(known)
+    return json.loads(known.read_text(encoding="utf-8"))
+
+
+def _strongest(job: Job, site: Site) -> float:
+    low, high = (1.05, 1000.0) if job.method == "Spectral" else (0.002, 0.45)
+    if _keeps_limits(job, high, site):
+        return high
+    if not _keeps_limits(job, low, site):
+        raise ValueError(f"No strength from {low} to {high} keeps the limits {dict(job.limits)}.")
+    for _ in range(STEPS):
+        middle = math.sqrt(low * high)
+        if _keeps_limits(job, middle, site):
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+def _keeps_limits(job: Job, strength: float, site: Site) -> bool:
+    cover = mesh_file(site.meshes, job.mesh)
+    meshes = plugin.opened(cover, cover)
+    try:
+        results = plugin.embed(meshes, message=job.message, strength=strength, **_carriers(job))
+    except pymeshlab.PyMeshLabException:
+        return False  # a mark so strong, or so weak, that it does not read back
+    if any(name not in results for name, _ in job.limits):
+        results |= plugin.distortion(meshes, reference=0)
+    return all(results[name] <= limit for name, limit in job.limits)
