@@ -1,0 +1,141 @@
+"""evaluate.py: the smoke protocol from start to report, killed and resumed, and with jobs that fail."""
+
+import math
+import os
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+SCRIPTS = ROOT / "meshlab_scripts"
+sys.path.insert(0, str(SCRIPTS))
+
+from evaluation.curves import binomial_tail, equal_error_rate  # noqa: E402
+from evaluation.frames import WAYS, frames, shift  # noqa: E402
+
+
+def command(protocol: str | Path, work: Path) -> list[str]:
+    return [sys.executable, str(SCRIPTS / "evaluate.py"), str(protocol), "--work", str(work)]
+
+
+def evaluate(protocol: str | Path, work: Path) -> pd.DataFrame:
+    subprocess.run(command(protocol, work), check=True, timeout=300)
+    return pd.read_csv(work / Path(protocol).stem / "results.csv", keep_default_na=False, na_values={"p_value": [""]})
+
+
+def stored(work: Path) -> list[tuple]:
+    if not (work / "results.sqlite").exists():
+        return []
+    connection = sqlite3.connect(work / "results.sqlite")
+    try:
+        return connection.execute("SELECT * FROM results").fetchall()
+    except sqlite3.OperationalError:  # the table is not there yet
+        return []
+    finally:
+        connection.close()
+
+
+@pytest.fixture(scope="module")
+def smoke(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, pd.DataFrame]:
+    work = tmp_path_factory.mktemp("smoke")
+    return work, evaluate("smoke", work)
+
+
+def test_smoke_is_complete(smoke: tuple[Path, pd.DataFrame]) -> None:
+    work, results = smoke
+    assert (results["error"] == "").all()
+    # 2 methods x (2 keys x (itself, 4 attacks) + 5 searches in the unmarked mesh)
+    assert len(results) == 2 * (2 * 5 + 5)
+    report = (work / "smoke" / "report.md").read_text(encoding="utf-8")
+    for heading in ("Table 5.3", "Figure 5.8", "False positives and false negatives", "Detection ratio after every"):
+        assert f"## {heading}" in report
+    for picture in ("figure-5.8", "errors-robustness"):
+        assert f"figures/{picture}.png" in report
+        assert (work / "smoke" / "figures" / f"{picture}.png").stat().st_size > 5000
+
+
+def test_smoke_obeys_what_must_hold(smoke: tuple[Path, pd.DataFrame]) -> None:
+    _, results = smoke
+    unattacked = results[(results["kind"] == "embed") | (results["series"] == "similarity")]
+    assert (unattacked["detection_ratio"].astype(float) == 1).all()
+    for row in results.itertuples():
+        exact = binomial_tail(int(row.bits), float(row.detection_ratio))
+        assert math.isclose(row.p_value, exact, rel_tol=1e-4), row  # the file has six digits
+
+
+def test_killed_run_goes_on_where_it_was(smoke: tuple[Path, pd.DataFrame], tmp_path: Path) -> None:
+    with subprocess.Popen(command("smoke", tmp_path), stderr=subprocess.DEVNULL) as process:
+        deadline = time.monotonic() + 240
+        while len(stored(tmp_path)) < 12:
+            assert process.poll() is None, "it ended before it could be killed"
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+        os.kill(process.pid, signal.SIGKILL)
+    before = stored(tmp_path)
+    assert 12 <= len(before) < 30
+    evaluate("smoke", tmp_path)
+    # Times are among the results: a job that had been done again would differ.
+    assert stored(tmp_path)[: len(before)] == before
+    whole, resumed = smoke[0] / "smoke", tmp_path / "smoke"
+    compared = [whole / "results.csv", *sorted((whole / "tables").iterdir())]
+    assert len(compared) >= 4
+    for path in compared:
+        assert (resumed / path.relative_to(whole)).read_bytes() == path.read_bytes(), path.name
+
+
+def test_job_that_fails_is_recorded_and_the_rest_goes_on(tmp_path: Path) -> None:
+    protocol = tmp_path / "failing.toml"
+    protocol.write_text(
+        """
+        title = "A tetrahedron cannot carry 32 bits"
+        meshes = ["tetrahedron", "fandisk"]
+        keys = 1
+        attacks.similarity = { attack = "Similarity" }
+        attacks.nonsense = { attack = "Noise", amounts = [7] }
+        [[experiments]]
+        name = "both"
+        methods = ["ChoMean"]
+        bits = [32]
+        strengths = [0.1]
+        attacks = ["similarity", "nonsense"]
+        """,
+        encoding="utf-8",
+    )
+    results = evaluate(protocol, tmp_path).set_index(["mesh", "kind", "series"])["error"]
+    assert results["fandisk", "embed", ""] == ""
+    assert results["fandisk", "attack", "similarity"] == ""
+    assert "Amount is 7" in results["fandisk", "attack", "nonsense"]
+    assert (results["tetrahedron"] != "").all()
+    assert "## Jobs that failed" in (tmp_path / "failing" / "report.md").read_text(encoding="utf-8")
+
+
+def test_equal_error_rate() -> None:
+    assert equal_error_rate(np.array([0.9, 1.0]), np.array([0.4, 0.5])) == 0
+    assert equal_error_rate(np.array([0.4, 0.6]), np.array([0.4, 0.6])) == pytest.approx(0.5)
+    # At a threshold of 0.6 one of four is missed and one of four is a false alarm.
+    marked, unmarked = np.array([0.5, 0.7, 0.8, 0.9]), np.array([0.2, 0.3, 0.4, 0.6])
+    assert equal_error_rate(marked, unmarked) == pytest.approx(0.25)
+
+
+def test_frames_of_a_box() -> None:
+    """A box of 3 x 2 x 1 about (5, 6, 7), with one side split finely: only the vertices' own frame sees that."""
+    corners = np.array([[x, y, z] for x in (3.5, 6.5) for y in (5.0, 7.0) for z in (6.5, 7.5)])
+    sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    faces = np.array([side for a, b, c, d in sides for side in ((a, b, c), (a, c, d))])
+    found = frames(corners, faces)
+    for way in WAYS:
+        assert found[way][0] == pytest.approx([5, 6, 7])
+        assert abs(found[way][1][0]) == pytest.approx(1)
+    split = np.vstack([corners, [[6.5, 6, 7]]])
+    finer = np.vstack([np.delete(faces, [2, 3], axis=0), [[a, b, 8] for a, b in ((4, 6), (6, 7), (7, 5), (5, 4))]])
+    after = frames(split, finer)
+    assert shift(found["volume"], after["volume"]) == pytest.approx((0, 0), abs=1e-5)
+    assert shift(found["surface"], after["surface"]) == pytest.approx((0, 0), abs=1e-5)
+    assert shift(found["vertices"], after["vertices"])[0] == pytest.approx(1.5 / 9)
