@@ -28,6 +28,12 @@ Json to_json(const vcg_ext::EmbedReport& report)
                           {"max_iterations", report.solver->max_iterations},
                           {"not_converged", report.solver->not_converged}};
     }
+    if (report.moves)
+        json["moves"] = {{"one", report.moves->moves[0]},
+                         {"two", report.moves->moves[1]},
+                         {"three", report.moves->moves[2]},
+                         {"more", report.moves->moves[3]},
+                         {"unconverged", report.moves->unconverged}};
     json["warnings"] = report.warnings;
     return json;
 }
@@ -49,6 +55,8 @@ Json to_json(const vcg_ext::DetectReport& report)
         json["p_value"] = *report.p_value;
     if (report.present)
         json["present"] = *report.present;
+    if (report.smoothing_rounds)
+        json["smoothing_rounds"] = *report.smoothing_rounds;
     json["seconds"] = report.seconds;
     json["warnings"] = report.warnings;
     return json;

@@ -13,7 +13,8 @@ Json to_json(const vcg_ext::AttackReport& report);
 Json to_json(const vcg_ext::DistortionReport& report);
 
 /// The same for pymeshlab's dict, which cannot take texts: `bits` becomes a vector of 0 and 1, `warnings` their count,
-/// `seconds` and `solver` a number for each part (`seconds_placement`). Other texts are in the log and the report only.
+/// `seconds`, `solver` and `moves` a number for each part (`seconds_placement`). Other texts are in the log and the
+/// report only.
 std::map<std::string, HostValue> to_values(const Json& results);
 
 /// The same for the log: a line each, long lists by their range. Warnings are left out.

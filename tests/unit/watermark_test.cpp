@@ -166,7 +166,9 @@ TEST_P(EveryMethod, InDoubleStorageSurvivesFloatFiles)
 INSTANTIATE_TEST_SUITE_P(Watermark, EveryMethod,
                          testing::Values(Case{Method::LM, Statistic::Mean}, Case{Method::LM, Statistic::Variance},
                                          Case{Method::QSP, Statistic::Mean}, Case{Method::QSP, Statistic::Variance},
-                                         Case{Method::Cho, Statistic::Mean}, Case{Method::Cho, Statistic::Variance}),
+                                         Case{Method::Cho, Statistic::Mean}, Case{Method::Cho, Statistic::Variance},
+                                         Case{Method::Geodesic, Statistic::Mean},
+                                         Case{Method::Geodesic, Statistic::Variance}),
                          [](const auto& info) {
                              std::string text = std::string(name(info.param.method)) + name(info.param.statistic);
                              text.erase(std::remove(text.begin(), text.end(), '-'), text.end());

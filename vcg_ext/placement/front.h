@@ -24,8 +24,8 @@ struct FrontPlacement {
 /// No face turns by more than 60 degrees (folded()).
 ///
 /// \param arrivals  march() on the cover
-/// \param targets   one a vertex; NaN: it must not move
-/// \param tolerance of the distances
+/// \param targets   one a vertex; NaN: it must not move. None for the corners of the source's face, as nothing comes
+/// before \param tolerance of the distances
 [[nodiscard]] FrontPlacement place_front(const Cover& cover, const std::vector<Arrival>& arrivals,
                                          const std::vector<double>& targets, double tolerance,
                                          const FrontOptions& options = {});

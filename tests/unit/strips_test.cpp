@@ -1,0 +1,120 @@
+#include "support/load.h"
+#include "support/shapes.h"
+#include "support/topology.h"
+#include "vcg_ext/carrier/strips.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace vcg_ext;
+
+namespace {
+
+const Key& test_key()
+{
+    static const Key key("strips_test");
+    return key;
+}
+
+VertexFaces around(const Surface& s)
+{
+    return vertex_faces(static_cast<int>(s.points.size()), s.triangles);
+}
+
+TEST(KeyedSource, FollowsTheBody)
+{
+    const Surface cover = load("elephant.off");
+    const Point axis(1, 2, 3);
+    const SurfacePoint here = keyed_source(cover, test_key());
+    const SurfacePoint there = keyed_source(shapes::moved(cover, 2, 1, axis, {5, 6, 7}), test_key());
+    EXPECT_EQ(here.face, there.face);
+    Surface point;
+    point.points = {here.position};
+    EXPECT_LT((shapes::moved(point, 2, 1, axis, {5, 6, 7}).points[0] - there.position).norm(), 1e-12);
+}
+
+TEST(KeyedSource, EachKeyHasItsOwn)
+{
+    const Surface s = load("elephant.off");
+    EXPECT_GT((keyed_source(s, Key("one")).position - keyed_source(s, Key("two")).position).norm(), 1e-3);
+}
+
+TEST(KeyedSource, DirectionsAreEvenOverTheSphere)
+{
+    // On a sphere the frame is arbitrary but fixed, so directions are as even as draws: mean 0.
+    const Surface s = shapes::sphere(2);
+    constexpr int keys = 12; // deriving a key costs a tenth of a second
+    Point mean = Point::Zero();
+    for (int k = 0; k < keys; ++k)
+        mean += keyed_source(s, Key("direction " + std::to_string(k))).position / keys;
+    EXPECT_LT(mean.norm(), 3.4 / std::sqrt(keys)); // |mean|^2 keys is about chi^2 with 3 degrees: p < 0.01 beyond 11.3
+}
+
+TEST(KeyedSource, LooksOnWhereARayMisses)
+{
+    // Two boxes and nothing about the centre between them: one ray in fifty hits.
+    const Surface s = joined(shapes::moved(shapes::box(1, 1, 1), 1, 0, {1, 0, 0}, {-6, 0, 0}), shapes::box(1, 1, 1));
+    EXPECT_GE(keyed_source(s, test_key()).face, 0);
+}
+
+TEST(KeyedSource, SaysWhereNoRayCanHit)
+{
+    const Surface flat{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {9, 0, 0}, {9, 1, 0}, {8, 0, 0}}, {{0, 1, 2}, {3, 4, 5}}};
+    EXPECT_THROW((void)keyed_source(flat, test_key()), Error);
+}
+
+TEST(Strips, AreCutFromTheSourceToTheFarthestVertex)
+{
+    const Surface s = shapes::sphere(5);
+    const SurfacePoint source = keyed_source(s, test_key());
+    const Strips strips = strips_from(source, s, around(s), 0.1, 16);
+    const double pi = std::acos(-1.0);
+    EXPECT_NEAR(strips.farthest, pi, 0.03);
+    EXPECT_DOUBLE_EQ(strips.carriers.low, 0.1 * strips.farthest);
+    EXPECT_DOUBLE_EQ(strips.carriers.width, 0.05 * strips.farthest);
+    EXPECT_EQ(strips.unreached, 0);
+    // The zone between two angles has the area 2 pi (cos a - cos b), of 4 pi.
+    const std::vector<int> count = samples(strips.carriers);
+    for (int k = 0; k < 16; ++k) {
+        const double a = pi * (0.1 + 0.05 * k);
+        const double share = (std::cos(a) - std::cos(a + 0.05 * pi)) / 2;
+        EXPECT_NEAR(count[k], share * static_cast<double>(s.points.size()),
+                    0.1 * share * static_cast<double>(s.points.size()));
+    }
+}
+
+TEST(Strips, OtherPartsCarryNothing)
+{
+    const Surface sphere = shapes::sphere(4);
+    const Surface s = joined(sphere, shapes::moved(shapes::box(1, 1, 1), 0.1, 0, {1, 0, 0}, {0, 0, 0}));
+    const SurfacePoint source{0, s.points[s.triangles[0][0]]};
+    const Strips strips = strips_from(source, s, around(s), 0.1, 8);
+    EXPECT_EQ(strips.unreached, 8);
+    EXPECT_NEAR(strips.farthest, std::acos(-1.0), 0.05);
+    for (std::size_t v = sphere.points.size(); v < s.points.size(); ++v)
+        EXPECT_EQ(strips.carriers.label[v], -1);
+}
+
+TEST(Strips, PointIsCarriedAlong)
+{
+    const Surface s = shapes::sphere(2);
+    const auto& [a, b, c] = s.triangles[7];
+    const SurfacePoint source{7, 0.2 * s.points[a] + 0.5 * s.points[b] + 0.3 * s.points[c]};
+    Points other = s.points;
+    for (Point& p : other)
+        p = Point(p.x() + 2 * p.y(), 3 * p.z(), p.x() * p.y());
+    const SurfacePoint carried = carried_along(source, s, other);
+    EXPECT_EQ(carried.face, 7);
+    EXPECT_LT((carried.position - (0.2 * other[a] + 0.5 * other[b] + 0.3 * other[c])).norm(), 1e-14);
+}
+
+TEST(ReadStrips, DoesNotSmoothWhatIsSmooth)
+{
+    const Surface s = load("fandisk.off");
+    const Strips strips = read_strips(s, around(s), test_key(), 0.1, 32, Statistic::Mean);
+    EXPECT_TRUE(strips.from_volume);
+    EXPECT_EQ(strips.carriers.count, 32);
+    EXPECT_TRUE(strips.smoothing_rounds == 0 || strips.smoothing_rounds == 1 || strips.smoothing_rounds == 3);
+}
+
+} // namespace
