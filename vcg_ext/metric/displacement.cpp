@@ -84,37 +84,25 @@ std::vector<Nearby> face_and_ring(const Points& points, const std::vector<Triang
     return faces;
 }
 
-/// The centres of the 16 equal triangles that a triangle falls into, as weights of its corners.
-std::vector<Point> sixteenths()
-{
-    std::vector<Point> weights;
-    for (int i = 0; i < 4; ++i)
-        for (int j = 0; i + j < 4; ++j) {
-            weights.emplace_back(3 * i + 1, 3 * j + 1, 10 - 3 * i - 3 * j);
-            if (i + j < 3)
-                weights.emplace_back(3 * i + 2, 3 * j + 2, 8 - 3 * i - 3 * j);
-        }
-    for (Point& w : weights)
-        w /= 12;
-    return weights;
-}
+/// Three points of equal weight integrate a quadratic over a triangle exactly, and the squared distance to a plane is
+/// one.
+const std::array<Point, 3> quadrature = {Point(4, 1, 1) / 6, Point(1, 4, 1) / 6, Point(1, 1, 4) / 6};
 
 double rms_one_way(const Points& from, const Points& to, const std::vector<Triangle>& triangles,
                    const VertexFaces& around)
 {
     const int faces = static_cast<int>(triangles.size());
-    const int stride = std::max(1, faces / 4096);
-    const std::vector<Point> weights = sixteenths();
+    const int stride = std::max(1, faces / 32768);
     const Sum sum = ordered_sum((faces + stride - 1) / stride, Sum(), [&](int i) {
         const Triangle& t = triangles[i * stride];
         const std::vector<Nearby> faces = face_and_ring(to, triangles, around, i * stride);
         const double area = scaled_normal(from, t).norm();
         double squares = 0;
-        for (const Point& w : weights) {
+        for (const Point& w : quadrature) {
             const double d = distance(w[0] * from[t[0]] + w[1] * from[t[1]] + w[2] * from[t[2]], faces);
             squares += d * d;
         }
-        return Sum{area * squares / static_cast<double>(weights.size()), area};
+        return Sum{area * squares / static_cast<double>(quadrature.size()), area};
     });
     return sum.area > 0 ? std::sqrt(sum.squares / sum.area) : 0;
 }

@@ -12,8 +12,8 @@ namespace vcg_ext {
 /// Root mean square distance between a surface and its moved copy, the larger of both directions, as Metro's MRMS
 /// (2.16).
 ///
-/// For moves smaller than the faces: distances are measured to the faces around the sample's own face only, never more
-/// than the true distance plus that neighbourhood's want. On some 4,000 faces, evenly chosen; a fraction of Metro's
+/// For moves smaller than the faces: distances are measured to the faces around the sample's own, never less than the
+/// true ones. On at most some 32,000 faces, evenly chosen: up to 6 % above Metro on marked meshes, in a fraction of its
 /// time. For any pair of surfaces see distortion.h.
 [[nodiscard]] double local_mrms(const Points& before, const Points& after, const std::vector<Triangle>& triangles,
                                 const VertexFaces& around);
