@@ -1,0 +1,285 @@
+#include "patches.h"
+
+#include "../geometry/taubin.h"
+#include "../parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace vcg_ext {
+
+int Patches::flipped(int patch, AxisFlips flips) const
+{
+    const int layer = patch / columns;
+    const int column = patch % columns;
+    return (flips.second ? layers - 1 - layer : layer) * columns + (flips.first ? columns - 1 - column : column);
+}
+
+int patch_count(int bits, int layers)
+{
+    const int wanted = bits + std::max(6, bits / 10);
+    return (wanted + layers - 1) / layers * layers;
+}
+
+std::vector<std::vector<int>> patch_vertices(const Patches& patches)
+{
+    std::vector<std::vector<int>> vertices(patches.count());
+    for (std::size_t v = 0; v < patches.label.size(); ++v)
+        if (patches.label[v] >= 0)
+            vertices[patches.label[v]].push_back(static_cast<int>(v));
+    return vertices;
+}
+
+namespace {
+
+Points in_frame(const Points& points, const Frame& frame)
+{
+    Points local(points.size());
+    for_each_index(static_cast<int>(points.size()),
+                   [&](int v) { local[v] = frame.axes.transpose() * (points[v] - frame.centre); });
+    return local;
+}
+
+/// Area over a coordinate, in fine steps.
+class AreaProfile {
+public:
+    AreaProfile(double low, double high) : low_(low), width_((high - low) / steps), area_(steps, 0.0) {}
+
+    void add(double x, double area) { area_[std::clamp(static_cast<int>((x - low_) / width_), 0, steps - 1)] += area; }
+
+    AreaProfile& operator+=(const AreaProfile& other)
+    {
+        for (int i = 0; i < steps; ++i)
+            area_[i] += other.area_[i];
+        return *this;
+    }
+
+    /// The coordinates below which these shares of the area lie. \param shares ascending, in [0, 1]
+    [[nodiscard]] std::vector<double> cuts(const std::vector<double>& shares) const
+    {
+        const double total = std::accumulate(area_.begin(), area_.end(), 0.0);
+        std::vector<double> cuts;
+        double below = 0;
+        int step = 0;
+        for (const double share : shares) {
+            while (step < steps - 1 && below + area_[step] < share * total)
+                below += area_[step++];
+            const double part = area_[step] > 0 ? (share * total - below) / area_[step] : 0;
+            cuts.push_back(low_ + width_ * (step + std::clamp(part, 0.0, 1.0)));
+        }
+        return cuts;
+    }
+
+private:
+    static constexpr int steps = 1 << 14;
+    double low_;
+    double width_;
+    std::vector<double> area_;
+};
+
+/// Calls `visit(centroid, area)` for the 16 equal parts of a triangle.
+template <class Visit>
+void visit_parts(const Points& points, const Triangle& t, const Visit& visit)
+{
+    constexpr int n = 4; // parts an edge
+    const double area = scaled_normal(points, t).norm() / 2 / (n * n);
+    const Point origin = points[t[0]];
+    const Point a = (points[t[1]] - origin) / n;
+    const Point b = (points[t[2]] - origin) / n;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; i + j < n; ++j) {
+            visit(origin + (i + 1.0 / 3) * a + (j + 1.0 / 3) * b, area);
+            if (i + j < n - 1)
+                visit(origin + (i + 2.0 / 3) * a + (j + 2.0 / 3) * b, area);
+        }
+}
+
+/// Profiles of the surface's area: `add(profiles, centroid, area)` for each small part. Summed in a fixed order.
+template <class Add>
+std::vector<AreaProfile> area_profiles(const Points& points, const std::vector<Triangle>& triangles,
+                                       const std::vector<AreaProfile>& empty, const Add& add)
+{
+    constexpr int pieces = 16;
+    const int count = static_cast<int>(triangles.size());
+    const int chunk = (count + pieces - 1) / pieces;
+    std::vector<std::vector<AreaProfile>> partial(pieces, empty);
+    for_chunks(count, chunk, [&](int begin, int end) {
+        std::vector<AreaProfile>& mine = partial[begin / chunk];
+        for (int f = begin; f < end; ++f)
+            visit_parts(points, triangles[f], [&](const Point& p, double area) { add(mine, p, area); });
+    });
+    std::vector<AreaProfile> total = empty;
+    for (const std::vector<AreaProfile>& piece : partial)
+        for (std::size_t i = 0; i < total.size(); ++i)
+            total[i] += piece[i];
+    return total;
+}
+
+std::vector<double> equal_shares(int pieces)
+{
+    std::vector<double> shares;
+    for (int i = 0; i <= pieces; ++i)
+        shares.push_back(static_cast<double>(i) / pieces);
+    return shares;
+}
+
+/// The piece of `cuts` that holds `x`; what lies outside counts to the first or the last.
+int piece_of(const std::vector<double>& cuts, double x)
+{
+    return static_cast<int>(std::upper_bound(cuts.begin() + 1, cuts.end() - 1, x) - cuts.begin()) - 1;
+}
+
+} // namespace
+
+Patches equal_area_patches(const Surface& surface, const EdgeGraph& graph, const Frame& frame, int layers, int columns,
+                           double trim)
+{
+    constexpr int passes = 10;
+    const Points smooth = in_frame(taubin(graph, surface.points, passes), frame);
+    Point low = smooth[surface.triangles[0][0]];
+    Point high = low;
+    for (const Point& p : smooth) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+    const AreaProfile along_first(low.x(), high.x());
+    const AreaProfile along_second(low.y(), high.y());
+    const auto profiles = [&](const std::vector<AreaProfile>& empty, const auto& add) {
+        return area_profiles(smooth, surface.triangles, empty, add);
+    };
+
+    const std::vector<double> ends =
+        profiles({along_first}, [](auto& profile, const Point& p, double area) { profile[0].add(p.x(), area); })[0]
+            .cuts({trim, 1 - trim});
+    const auto inside = [&ends](const Point& p) { return p.x() >= ends[0] && p.x() < ends[1]; };
+    const std::vector<double> layer_cuts = profiles({along_second},
+                                                    [&](auto& profile, const Point& p, double area) {
+                                                        if (inside(p))
+                                                            profile[0].add(p.y(), area);
+                                                    })[0]
+                                               .cuts(equal_shares(layers));
+    const std::vector<AreaProfile> layer_profiles =
+        profiles(std::vector<AreaProfile>(layers, along_first), [&](auto& profile, const Point& p, double area) {
+            if (inside(p))
+                profile[piece_of(layer_cuts, p.y())].add(p.x(), area);
+        });
+    std::vector<std::vector<double>> column_cuts;
+    for (const AreaProfile& profile : layer_profiles)
+        column_cuts.push_back(profile.cuts(equal_shares(columns)));
+
+    Patches patches{layers, columns, std::vector<int>(smooth.size(), -1)};
+    for_each_index(static_cast<int>(smooth.size()), [&](int v) {
+        if (!inside(smooth[v]))
+            return;
+        const int layer = piece_of(layer_cuts, smooth[v].y());
+        patches.label[v] = layer * columns + piece_of(column_cuts[layer], smooth[v].x());
+    });
+    return patches;
+}
+
+namespace {
+
+/// Area of a triangle's part within the box between `low` and `high` along axes 1 and 2.
+double area_within(const Points& points, const Triangle& t, const Point& low, const Point& high)
+{
+    std::vector<Point> polygon = {points[t[0]], points[t[1]], points[t[2]]};
+    for (int axis = 0; axis < 2; ++axis)
+        for (const double side : {1.0, -1.0}) {
+            const auto depth = [&](const Point& p) { return side > 0 ? p[axis] - low[axis] : high[axis] - p[axis]; };
+            std::vector<Point> clipped;
+            for (std::size_t i = 0; i < polygon.size(); ++i) {
+                const Point& a = polygon[i];
+                const Point& b = polygon[(i + 1) % polygon.size()];
+                if (depth(a) >= 0)
+                    clipped.push_back(a);
+                if ((depth(a) >= 0) != (depth(b) >= 0))
+                    clipped.emplace_back(a + (b - a) * (depth(a) / (depth(a) - depth(b))));
+            }
+            polygon.swap(clipped);
+        }
+    Point sum = Point::Zero();
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+        sum += (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]);
+    return sum.norm() / 2;
+}
+
+/// Lines 3 to 18 of Algorithm 1 for one layer, whose patches are numbered from `patch` on. Returns the first number
+/// that is not used up; its vertices are the layer's leftover.
+int grow_patches(const Points& local, const Surface& surface, const VertexFaces& around, const std::vector<int>& sorted,
+                 const Point& low, const Point& high, double patch_area, std::vector<char>& processed, int patch,
+                 std::vector<int>& label)
+{
+    double area = 0;
+    for (const int v : sorted) {
+        label[v] = patch;
+        for (const int* f = around.begin(v); f != around.end(v); ++f) {
+            const Triangle& t = surface.triangles[*f];
+            if (processed[*f] || std::any_of(t.begin(), t.end(), [&](int w) { return label[w] < 0; }))
+                continue;
+            processed[*f] = 1;
+            area += area_within(local, t, low, high);
+            if (area > patch_area) {
+                label[v] = ++patch;
+                area -= patch_area;
+            }
+        }
+    }
+    return patch;
+}
+
+} // namespace
+
+Patches thesis_patches(const Surface& surface, const Frame& frame, int layers, int count, double trim)
+{
+    const Points local = in_frame(surface.points, frame);
+    const int vertices = static_cast<int>(local.size());
+    const auto by_axis = [&](int axis) {
+        return [&local, axis](int a, int b) { return local[a][axis] < local[b][axis]; };
+    };
+    std::vector<int> inside(vertices);
+    std::iota(inside.begin(), inside.end(), 0);
+    std::sort(inside.begin(), inside.end(), by_axis(0));
+    const double low = local[inside.front()].x();
+    const double range = local[inside.back()].x() - low;
+    Point from(low + trim * range, 0, 0);
+    Point to(low + (1 - trim) * range, 0, 0);
+    inside.erase(std::remove_if(inside.begin(), inside.end(),
+                                [&](int v) { return local[v].x() < from.x() || local[v].x() >= to.x(); }),
+                 inside.end());
+    if (inside.empty())
+        return {1, 0, std::vector<int>(vertices, -1)};
+
+    const auto [lowest, highest] = std::minmax_element(inside.begin(), inside.end(), by_axis(1));
+    const double bottom = local[*lowest].y();
+    const double height = (local[*highest].y() - bottom) / layers;
+    from.y() = bottom;
+    to.y() = bottom + layers * height;
+    const double total = ordered_sum(static_cast<int>(surface.triangles.size()), 0.0,
+                                     [&](int f) { return area_within(local, surface.triangles[f], from, to); });
+
+    const VertexFaces around = vertex_faces(vertices, surface.triangles);
+    std::vector<char> processed(surface.triangles.size(), 0);
+    Patches patches{1, 0, std::vector<int>(vertices, -1)};
+    std::vector<int> leftover;
+    for (int layer = 0; layer < layers; ++layer) {
+        from.y() = bottom + layer * height;
+        to.y() = from.y() + height;
+        std::vector<int> sorted;
+        for (const int v : inside)
+            if (std::min(layers - 1, static_cast<int>((local[v].y() - bottom) / height)) == layer)
+                sorted.push_back(v);
+        patches.columns = grow_patches(local, surface, around, sorted, from, to, total / count, processed,
+                                       patches.columns, patches.label);
+        for (const int v : sorted)
+            if (patches.label[v] == patches.columns) {
+                leftover.push_back(v);
+                patches.label[v] = vertices; // any number but -1: its faces count to the next layer (line 9)
+            }
+    }
+    for (const int v : leftover)
+        patches.label[v] = -1;
+    return patches;
+}
+
+} // namespace vcg_ext
