@@ -6,6 +6,7 @@
 #include "metric/statistics.h"
 #include "norms.h"
 #include "parallel.h"
+#include "spectral.h"
 
 #include <algorithm>
 #include <chrono>
@@ -44,14 +45,20 @@ struct Secrets {
 Secrets draw_secrets(const Key& key, const CarrierOptions& options)
 {
     Secrets secrets;
-    secrets.trim = options.trim;
-    if (options.trim < 0) {
-        // Norms: in [0, 0.15] (thesis 5.2.1). Strips: the thesis draws from (0, 0.2), but where nearly nothing is cut
-        // off, the first and the last strip are too small to hold a vertex; so in [0.05, 0.2].
-        const double least = options.method == Method::Geodesic ? 0.05 : 0;
-        secrets.trim = least + static_cast<double>(key.stream("epsilon").below(15001)) / 1e5;
+    if (options.method == Method::Spectral) {
+        PatchPlan plan = patch_plan(key, options.bits, options.trim, options.as_printed);
+        secrets.trim = plan.trim;
+        secrets.carrier_of_bit = std::move(plan.order);
+    } else {
+        secrets.trim = options.trim;
+        if (options.trim < 0) {
+            // Norms: in [0, 0.15] (thesis 5.2.1). Strips: the thesis draws from (0, 0.2), but where nearly nothing is
+            // cut off, the first and the last strip are too small to hold a vertex; so in [0.05, 0.2].
+            const double least = options.method == Method::Geodesic ? 0.05 : 0;
+            secrets.trim = least + static_cast<double>(key.stream("epsilon").below(15001)) / 1e5;
+        }
+        secrets.carrier_of_bit = key.stream("carrier-order").permutation(options.bits);
     }
-    secrets.carrier_of_bit = key.stream("carrier-order").permutation(options.bits);
     Stream mask = key.stream("bit-mask");
     for (int i = 0; i < options.bits; ++i)
         secrets.mask.push_back(static_cast<std::uint8_t>(mask.below(2)));
@@ -77,14 +84,20 @@ void check_options(const CarrierOptions& options)
                     ", or be -1 to be drawn from the key.");
 }
 
-double checked_alpha(double strength, Statistic statistic)
+/// The strength as it will be used; within what the method bears.
+double checked_strength(const EmbedOptions& options)
 {
-    const double alpha = strength == 0 ? 0.1 : strength;
-    const double most = statistic == Statistic::Mean ? 0.45 : 0.3;
-    if (!(alpha > 0 && alpha <= most))
-        throw Error("Strength is " + text(alpha) + ", but must lie above 0 and up to " + text(most) +
-                    " for this statistic, or be 0 for the default of 0.1.");
-    return alpha;
+    struct Range {
+        double usual, above, most;
+    };
+    const Range range = options.method == Method::Spectral     ? Range{15, 2, 1000}
+                        : options.statistic == Statistic::Mean ? Range{0.1, 0, 0.45}
+                                                               : Range{0.1, 0, 0.3};
+    const double strength = options.strength == 0 ? range.usual : options.strength;
+    if (!(strength > range.above && strength <= range.most))
+        throw Error("Strength is " + text(strength) + ", but for this method it must lie above " + text(range.above) +
+                    " and up to " + text(range.most) + ", or be 0 for the default of " + text(range.usual) + ".");
+    return strength;
 }
 
 void check_surface(const Surface& surface)
@@ -194,16 +207,66 @@ void read_bits(const Carriers& carriers, const Secrets& secrets, DetectReport& r
             label = bit_of_carrier[label];
 }
 
-void judge(const Bits& expected, DetectReport& report)
+/// \param tries how many readings the report is the best of
+void judge(const Bits& expected, int tries, DetectReport& report)
 {
     const int bits = static_cast<int>(report.bits.size());
-    const Bits wanted = pad_message(expected, bits);
-    int matches = 0;
-    for (int i = 0; i < bits; ++i)
-        matches += wanted[i] == report.bits[i];
+    const int matches = matching_bits(pad_message(expected, bits), report.bits);
     report.detection_ratio = static_cast<double>(matches) / bits;
-    report.p_value = binomial_tail(bits, matches);
+    report.p_value = std::min(1.0, tries * binomial_tail(bits, matches));
     report.present = *report.p_value < 1e-6;
+}
+
+/// Embeds by the methods that have one scalar per vertex.
+Points place_scalar(const Surface& surface, const Key& key, const Secrets& secrets, const EmbedOptions& options,
+                    EmbedReport& result, const Progress& progress)
+{
+    const ScalarMethod method = scalar_method(surface, key, options, secrets.trim, result);
+    const std::vector<int> count = samples(method.cover);
+    result.samples_min = *std::min_element(count.begin(), count.end());
+    if (result.samples_min == 0) {
+        const int fewer = most_that_fills(method, options.bits);
+        throw Error(std::to_string(std::count(count.begin(), count.end(), 0)) + " of the " +
+                    std::to_string(options.bits) + " carriers hold no vertex. This mesh carries " +
+                    std::to_string(fewer) + " bits with this method and key; shorten the message or use a finer mesh.");
+    }
+    const double guard = float_guard(surface.points, method.cover);
+    bool as_float = true;
+    if (guard > 0.2) {
+        if (options.storage == Storage::Float)
+            throw Error(
+                "The mesh lies so far from the origin, or has so little range, that float coordinates are coarser than "
+                "its carriers. Move it to the origin, or set fewer bits.");
+        as_float = false;
+        result.warnings.emplace_back(
+            "The mark is finer than float coordinates: save to a file format that holds doubles, or "
+            "move the mesh to the origin first.");
+    }
+    const auto round = [as_float](const Points& points) { return as_float ? rounded_to_float(points) : points; };
+    ScalarResult placed =
+        embed_scalar(method, options.statistic, carrier_bits(result.bits, secrets), result.strength,
+                     std::max({as_float ? guard : 0, method.guard, 1e-6}), options.max_rounds, round, progress);
+    result.rounds = placed.rounds;
+    const std::string wrong = list_wrong_bits(placed.margins, secrets);
+    if (!wrong.empty())
+        throw Error("These bits could not be read back: " + wrong +
+                    ". Set fewer bits, or use a finer mesh or another method.");
+    return std::move(placed.points);
+}
+
+/// Reads blind what was embedded: without the message, unless the body's ends can only be told apart by it.
+double self_check(const Surface& marked, const Key& key, const CarrierOptions& options, EmbedReport& result)
+{
+    DetectOptions blind;
+    static_cast<CarrierOptions&>(blind) = options;
+    if (detect(marked, key, blind).bits == result.bits)
+        return 1;
+    blind.expected = result.bits;
+    const double ratio = *detect(marked, key, blind).detection_ratio;
+    if (ratio == 1)
+        result.warnings.emplace_back("The body is so symmetric that with this key the message can only be read by who "
+                                     "knows what to expect. Set it for detection too, or take another key.");
+    return ratio;
 }
 
 } // namespace
@@ -226,60 +289,29 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     if (options.bits == 0)
         options.bits = static_cast<int>(options.message.size());
     check_options(options);
-    const double alpha = checked_alpha(options.strength, options.statistic);
     EmbedReport result;
     result.method = options.method;
     result.statistic = options.statistic;
     result.bits = pad_message(options.message, options.bits);
-    result.strength = alpha;
+    result.strength = checked_strength(options);
     result.carriers = options.bits;
     const Secrets secrets = draw_secrets(key, options);
     result.trim = secrets.trim;
 
     report(progress, 0, "Finding carriers");
     const Welded welded = checked_weld(surface);
-    const ScalarMethod method = scalar_method(welded.surface, key, options, secrets.trim, result);
-    const std::vector<int> count = samples(method.cover);
-    result.samples_min = *std::min_element(count.begin(), count.end());
-    if (result.samples_min == 0) {
-        const int fewer = most_that_fills(method, options.bits);
-        throw Error(std::to_string(std::count(count.begin(), count.end(), 0)) + " of the " +
-                    std::to_string(options.bits) + " carriers hold no vertex. This mesh carries " +
-                    std::to_string(fewer) + " bits with this method and key; shorten the message or use a finer mesh.");
-    }
-    const double guard = float_guard(welded.surface.points, method.cover);
-    bool as_float = true;
-    if (guard > 0.2) {
-        if (options.storage == Storage::Float)
-            throw Error(
-                "The mesh lies so far from the origin, or has so little range, that float coordinates are coarser than "
-                "its carriers. Move it to the origin, or set fewer bits.");
-        as_float = false;
-        result.warnings.emplace_back(
-            "The mark is finer than float coordinates: save to a file format that holds doubles, or "
-            "move the mesh to the origin first.");
-    }
-    result.seconds["carriers"] = watch.lap();
-
-    const auto round = [as_float](const Points& points) { return as_float ? rounded_to_float(points) : points; };
-    ScalarResult placed =
-        embed_scalar(method, options.statistic, carrier_bits(result.bits, secrets), alpha,
-                     std::max({as_float ? guard : 0, method.guard, 1e-6}), options.max_rounds, round, progress);
-    result.rounds = placed.rounds;
-    const std::string wrong = list_wrong_bits(placed.margins, secrets);
-    if (!wrong.empty())
-        throw Error("These bits could not be read back: " + wrong +
-                    ". Set fewer bits, or use a finer mesh or another method.");
+    const Points placed =
+        options.method == Method::Spectral
+            ? embed_spectral(welded.surface, {secrets.carrier_of_bit, secrets.trim, options.as_printed}, secrets.mask,
+                             options, rounded_to_float, result, progress)
+            : place_scalar(welded.surface, key, secrets, options, result, progress);
     result.seconds["placement"] = watch.lap();
 
     report(progress, 85, "Checking blind");
-    Surface marked{unweld(surface.points, welded.site_of_vertex, placed.points), surface.triangles};
+    Surface marked{unweld(surface.points, welded.site_of_vertex, placed), surface.triangles};
     if (options.storage == Storage::Float)
         marked.points = rounded_to_float(marked.points);
-    DetectOptions blind;
-    static_cast<CarrierOptions&>(blind) = options;
-    blind.expected = result.bits;
-    result.detection_ratio = *detect(marked, key, blind).detection_ratio;
+    result.detection_ratio = self_check(marked, key, options, result);
     if (result.detection_ratio < 1)
         throw Error("The blind self-check did not read every bit back. Set fewer bits, or use a finer mesh.");
     result.seconds["check"] = watch.lap();
@@ -287,8 +319,8 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     report(progress, 95, "Measuring");
     result.moved_vertices = moved_count(surface.points, marked.points);
     result.max_displacement = max_displacement(surface.points, marked.points);
-    result.mrms = local_mrms(welded.surface.points, placed.points, welded.surface.triangles,
-                             vertex_faces(static_cast<int>(placed.points.size()), welded.surface.triangles));
+    result.mrms = local_mrms(welded.surface.points, placed, welded.surface.triangles,
+                             vertex_faces(static_cast<int>(placed.size()), welded.surface.triangles));
     result.mrms_relative = result.mrms / bounding_diagonal(welded.surface);
     result.seconds["measure"] = watch.lap();
     report(progress, 100, "Done");
@@ -308,14 +340,19 @@ DetectReport detect(const Surface& surface, const Key& key, const DetectOptions&
     report(progress, 0, "Finding carriers");
     const Welded welded = checked_weld(surface);
     report(progress, 30, "Reading");
-    read_bits(found_carriers(welded.surface, key, options, result), secrets, result);
+    int tries = 1;
+    if (options.method == Method::Spectral)
+        tries = detect_spectral(welded.surface, {secrets.carrier_of_bit, secrets.trim, options.as_printed},
+                                secrets.mask, options, result);
+    else
+        read_bits(found_carriers(welded.surface, key, options, result), secrets, result);
     std::vector<int> carrier_of_vertex(surface.points.size(), -1);
     for (std::size_t v = 0; v < carrier_of_vertex.size(); ++v)
         if (welded.site_of_vertex[v] >= 0)
             carrier_of_vertex[v] = result.carrier_of_vertex[welded.site_of_vertex[v]];
     result.carrier_of_vertex = std::move(carrier_of_vertex);
     if (options.expected)
-        judge(*options.expected, result);
+        judge(*options.expected, tries, result);
     result.seconds["detection"] = watch.lap();
     report(progress, 100, "Done");
     return result;

@@ -49,6 +49,9 @@ struct CarrierOptions {
     Statistic statistic = Statistic::Mean; ///< Spectral ignores it
     int bits = 64;                         ///< number of carriers, 1 to 1024
     double trim = -1; ///< eps of (5.2): part of the range cut off at both ends, 0 to 0.45; negative: drawn from the key
+    /// Spectral: chapter 3 as the thesis prints it, for comparison. Patches of Algorithm 1 with their own Laplacians,
+    /// exact eigenbases (up to 2,500 vertices a patch), the highest 70 %, (3.21), T = 2.25, no guard against folds.
+    bool as_printed = false;
 };
 
 struct EmbedOptions : CarrierOptions {
@@ -112,11 +115,15 @@ struct DetectReport {
         soft; ///< per bit: the statistic's distance from the threshold in standard errors, positive for 1
     std::vector<int> samples;              ///< per bit: vertices in its carrier
     std::optional<double> detection_ratio; ///< matching bits over all; with `expected` only
-    std::optional<double> p_value;         ///< exact binomial tail of at least that many matches by chance
-    std::optional<bool> present;           ///< p_value below 1e-6
-    std::optional<int> smoothing_rounds;   ///< of the surface before it was read; Method::Geodesic only
+    std::optional<double> p_value; ///< binomial tail of at least that many matches by chance; times 4 for Spectral, the
+                                   ///< best of 4 orientations
+    std::optional<bool> present;   ///< p_value below 1e-6
+    std::optional<int> smoothing_rounds; ///< of the surface before it was read; Method::Geodesic only
     std::map<std::string, double> seconds;
     std::vector<std::string> warnings;
+    /// Spectral: whether axis 1 and axis 2 were read along (+) or against (-) the body's third moments, as "++" or
+    /// "-+".
+    std::string orientation;
     std::vector<int> carrier_of_vertex; ///< per vertex the number of the bit it carries, or -1
 };
 

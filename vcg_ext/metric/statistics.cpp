@@ -25,17 +25,21 @@ double binomial_tail(int n, int k)
     return cdf(complement(coins, k - 1));
 }
 
-double detection_ratio(const Bits& expected, const Bits& found)
+int matching_bits(const Bits& expected, const Bits& found)
 {
     if (expected.size() != found.size())
         throw Error("Messages of " + std::to_string(expected.size()) + " and " + std::to_string(found.size()) +
                     " bits cannot be compared. Pad the shorter one.");
-    if (expected.empty())
-        return 1;
     int matches = 0;
     for (std::size_t i = 0; i < expected.size(); ++i)
         matches += expected[i] == found[i];
-    return static_cast<double>(matches) / static_cast<double>(expected.size());
+    return matches;
+}
+
+double detection_ratio(const Bits& expected, const Bits& found)
+{
+    const int matches = matching_bits(expected, found);
+    return expected.empty() ? 1 : static_cast<double>(matches) / static_cast<double>(expected.size());
 }
 
 std::vector<RocPoint> roc(const std::vector<double>& marked, const std::vector<double>& unmarked)

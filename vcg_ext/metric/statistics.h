@@ -13,6 +13,9 @@ namespace vcg_ext {
 /// \throw Error where `n` is negative
 [[nodiscard]] double binomial_tail(int n, int k);
 
+/// How many bits are the same in both. \throw Error where the lengths differ
+[[nodiscard]] int matching_bits(const Bits& expected, const Bits& found);
+
 /// Matching bits over all bits; 1 where there are none. (The thesis calls this BER.)
 /// \throw Error where the lengths differ
 [[nodiscard]] double detection_ratio(const Bits& expected, const Bits& found);

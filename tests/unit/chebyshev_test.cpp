@@ -1,0 +1,142 @@
+#include "vcg_ext/geometry/chebyshev.h"
+
+#include "support/load.h"
+#include "vcg_ext/carrier/patches.h"
+#include "vcg_ext/parallel.h"
+#include "vcg_ext/spectral.h"
+#include "vcg_ext/watermark.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace vcg_ext;
+
+constexpr double cutoff = 2; // as the spectral method has it
+
+/// A whole mesh of 1,556 vertices with its exact eigenbasis.
+struct Exact {
+    Surface surface = weld(load("ellipe0.003.off")).surface;
+    EdgeGraph graph = edge_graph(surface);
+    Eigen::VectorXd eigenvalues;
+    Eigen::MatrixXd basis;
+
+    Exact()
+    {
+        const int n = graph.vertices();
+        Eigen::MatrixXd laplacian = Eigen::MatrixXd::Zero(n, n);
+        for (int v = 0; v < n; ++v) {
+            laplacian(v, v) = graph.degree(v);
+            for (const int* w = graph.begin(v); w != graph.end(v); ++w)
+                laplacian(v, *w) = -1;
+        }
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(laplacian);
+        eigenvalues = solver.eigenvalues();
+        basis = solver.eigenvectors();
+    }
+
+    /// The sum over the eigenvectors, each times `gain` of its eigenvalue.
+    template <class Gain>
+    [[nodiscard]] Points filtered(const Points& x, const Gain& gain) const
+    {
+        Eigen::MatrixX3d rows(x.size(), 3);
+        for (std::size_t v = 0; v < x.size(); ++v)
+            rows.row(static_cast<Eigen::Index>(v)) = x[v];
+        Eigen::MatrixX3d coefficients = basis.transpose() * rows;
+        for (Eigen::Index k = 0; k < coefficients.rows(); ++k)
+            coefficients.row(k) *= gain(eigenvalues[k]);
+        rows = basis * coefficients;
+        Points result(x.size());
+        for (std::size_t v = 0; v < x.size(); ++v)
+            result[v] = rows.row(static_cast<Eigen::Index>(v));
+        return result;
+    }
+};
+
+const Exact& exact()
+{
+    static const Exact instance;
+    return instance;
+}
+
+Points centred(const Surface& surface)
+{
+    const Point centre = principal_frame(surface).centre;
+    Points points = surface.points;
+    for (Point& p : points)
+        p -= centre;
+    return points;
+}
+
+HighPass usual_filter(const EdgeGraph& graph)
+{
+    const double bound = laplacian_bound(graph);
+    return high_pass(cutoff, bound, high_pass_degree(bound));
+}
+
+TEST(Chebyshev, IsAStepButForTheStatedTransition)
+{
+    for (const double bound : {14.0, 18.0, 24.0, 40.0, 100.0}) {
+        const HighPass filter = high_pass(cutoff, bound, high_pass_degree(bound));
+        for (double lambda = 0; lambda <= bound; lambda += bound / 5000) {
+            const double gain = filter.transfer(lambda);
+            EXPECT_GE(gain, -1e-12);
+            EXPECT_LE(gain, 1 + 1e-12);
+            if (lambda < 1.5) {
+                EXPECT_LT(gain, 0.02) << bound << " " << lambda;
+            } else if (lambda > 2.5) {
+                EXPECT_GT(gain, 0.98) << bound << " " << lambda;
+            }
+        }
+    }
+}
+
+TEST(Chebyshev, ProductsEqualTheExactEigenbasis)
+{
+    const HighPass filter = usual_filter(exact().graph);
+    const Points x = centred(exact().surface);
+    const Points products = apply(filter, exact().graph, x);
+    const Points sums = exact().filtered(x, [&](double lambda) { return filter.transfer(lambda); });
+    for (std::size_t v = 0; v < x.size(); ++v)
+        EXPECT_LT((products[v] - sums[v]).norm(), 1e-10 * bounding_diagonal(exact().surface));
+}
+
+TEST(Chebyshev, IsTheSameAtAnyNumberOfThreads)
+{
+    const Surface surface = weld(load("fandisk.off")).surface;
+    const EdgeGraph graph = edge_graph(surface);
+    set_threads(1);
+    const Points one = apply(usual_filter(graph), graph, surface.points);
+    set_threads(5);
+    const Points five = apply(usual_filter(graph), graph, surface.points);
+    set_threads(0);
+    EXPECT_EQ(one, five);
+}
+
+TEST(Chebyshev, MarkedPatchesHaveTheShapesOfTheExactProjector)
+{
+    const Key key("exact");
+    Surface marked = exact().surface;
+    EmbedOptions options;
+    options.method = Method::Spectral;
+    options.bits = 16;
+    options.message = parse_message("hex:C0DE");
+    (void)embed(marked, key, options);
+
+    const PatchReading read = read_patches(marked, patch_plan(key, options.bits, options.trim, false));
+    const Points projected =
+        exact().filtered(centred(marked), [](double lambda) { return lambda > cutoff ? 1.0 : 0.0; });
+    std::vector<double> errors;
+    for (int k = 0; k < read.patches.count(); ++k) {
+        const double ratio = patch_shape(projected, read.vertices[k]).ratio();
+        errors.push_back(std::abs(read.shapes[k].ratio() / ratio - 1));
+        EXPECT_EQ(std::log(ratio) > read.threshold, read.soft(k) > 0) << k;
+    }
+    std::sort(errors.begin(), errors.end());
+    EXPECT_LT(errors[errors.size() / 2], 0.05);
+}
+
+} // namespace
