@@ -4,14 +4,31 @@
 
 #include <stdexcept>
 #include <wrap/io_trimesh/import_off.h>
+#include <wrap/io_trimesh/import_ply.h>
+#include <wrap/io_trimesh/import_stl.h>
+
+namespace {
+
+template <class Importer>
+vcg_ext::Surface load_by(const std::string& path)
+{
+    vcg_ext::Mesh mesh;
+    int mask = 0;
+    const int error = Importer::Open(mesh, path.c_str(), mask);
+    if (error && mesh.FN() == 0)
+        throw std::runtime_error(path + ": " + Importer::ErrorMsg(error));
+    return vcg_ext::to_surface(mesh);
+}
+
+} // namespace
 
 vcg_ext::Surface load(const std::string& name)
 {
     const std::string path = std::string(DATA_DIR) + "/" + name;
-    vcg_ext::Mesh mesh;
-    int mask = 0;
-    const int error = vcg::tri::io::ImporterOFF<vcg_ext::Mesh>::Open(mesh, path.c_str(), mask);
-    if (error && mesh.FN() == 0)
-        throw std::runtime_error(path + ": " + vcg::tri::io::ImporterOFF<vcg_ext::Mesh>::ErrorMsg(error));
-    return vcg_ext::to_surface(mesh);
+    const std::string ending = path.substr(path.size() - 4);
+    if (ending == ".ply")
+        return load_by<vcg::tri::io::ImporterPLY<vcg_ext::Mesh>>(path);
+    if (ending == ".stl")
+        return load_by<vcg::tri::io::ImporterSTL<vcg_ext::Mesh>>(path);
+    return load_by<vcg::tri::io::ImporterOFF<vcg_ext::Mesh>>(path);
 }

@@ -2,6 +2,7 @@
 
 #include "support/load.h"
 #include "support/topology.h"
+#include "vcg_ext/error.h"
 #include "vcg_ext/geometry/closest.h"
 
 #include <gtest/gtest.h>
@@ -39,6 +40,12 @@ TEST(Resample, TakesNewPlacesOnTheSurface)
         EXPECT_LT(nearest(p).distance, 2e-3 * diagonal);
     }
     EXPECT_LT(kept, 300); // some on the creases stay
+}
+
+TEST(Resample, RefusesNumbersThatCannotBe)
+{
+    const Surface quad = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+    EXPECT_THROW((void)resample(quad, 2), Error);
 }
 
 } // namespace

@@ -27,26 +27,36 @@ double edge_for(double area, int vertices)
     return std::sqrt(2 * area / (std::sqrt(3.0) * vertices));
 }
 
-/// Collapses what is too many. A collapse takes one vertex with two faces, or at a border with one: so in several
-/// steps.
+/// Collapses what is too many, as far as that goes. A collapse takes one vertex with two faces, or at a border with
+/// one: so it is done in several steps.
 Surface down_to(Surface surface, int vertices, const Progress& progress)
 {
-    for (int excess = 0; (excess = static_cast<int>(surface.points.size()) - vertices) > 0;) {
+    for (;;) {
+        const int excess = static_cast<int>(surface.points.size()) - vertices;
         const int faces = static_cast<int>(surface.triangles.size());
-        surface = weld(simplify(surface, std::max(faces - std::max(excess, 1), 1), progress)).surface;
+        if (excess <= 0 || faces <= excess)
+            return surface;
+        Surface fewer = weld(simplify(surface, faces - excess, progress)).surface;
+        if (fewer.triangles.empty() || fewer.points.size() == surface.points.size())
+            return surface;
+        surface = std::move(fewer);
     }
-    return surface;
 }
 
 } // namespace
 
 Surface resample(const Surface& surface, int vertices, const Progress& progress)
 {
-    double length = edge_for(area(surface), std::max(vertices, 4));
+    if (vertices < 4)
+        throw Error("That would leave " + std::to_string(vertices) +
+                    " vertices, and a surface of fewer than 4 holds nothing. Keep a larger part.");
+    double length = edge_for(area(surface), vertices);
     constexpr int tries = 8;
     for (int i = 0; i < tries; ++i) {
         report(progress, 100 * i / tries, "Resampling");
         Surface even = remesh(surface, length, remesh_iterations);
+        if (even.points.empty())
+            break;
         const double ratio = static_cast<double>(even.points.size()) / vertices;
         if (ratio >= 1 && (ratio <= 1.1 || i >= tries / 2))
             even = down_to(std::move(even), vertices, progress);

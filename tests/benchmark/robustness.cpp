@@ -1,0 +1,112 @@
+// What is left of a message after each attack: mean detection ratio over several keys, of the vertex-norm methods.
+// Usage: robustness [Mean|Variance] [keys] [mesh.off ...]
+
+#include "support/load.h"
+#include "vcg_ext/attack/attack.h"
+#include "vcg_ext/metric/statistics.h"
+#include "vcg_ext/watermark.h"
+
+#include <cstdio>
+#include <cstdlib>
+
+using namespace vcg_ext;
+
+namespace {
+
+struct Row {
+    const char* label;
+    AttackOptions attack;
+};
+
+const std::vector<Row>& rows()
+{
+    static const std::vector<Row> all = {
+        {"noise 0.1 %", {Attack::Noise, 0.001}},
+        {"noise 0.3 %", {Attack::Noise, 0.003}},
+        {"noise 0.5 %", {Attack::Noise, 0.005}},
+        {"smoothing x5", {Attack::Smooth, 0.5, 5}},
+        {"smoothing x10", {Attack::Smooth, 0.5, 10}},
+        {"simplification 50 %", {Attack::Simplify, 0.5}},
+        {"simplification 75 %", {Attack::Simplify, 0.75}},
+        {"simplification 90 %", {Attack::Simplify, 0.9}},
+        {"quantization 9 bits", {Attack::Quantize, 9}},
+        {"quantization 8 bits", {Attack::Quantize, 8}},
+        {"quantization 7 bits", {Attack::Quantize, 7}},
+        {"resampling 50 %", {Attack::Resample, 0.5}},
+        {"isotropic remeshing", {Attack::Remesh, 1, 3}},
+        {"isosurface 0.5 %", {Attack::Isosurface, 0.005}},
+        {"subdivision", {Attack::Subdivide}},
+        {"crop 30 %", {Attack::Crop, 0.3}},
+        {"affine 1 %", {Attack::Affine, 0.01}},
+        {"similarity", {Attack::Similarity}},
+        {"reordering", {Attack::Reorder}},
+    };
+    return all;
+}
+
+constexpr std::array methods = {Method::LM, Method::QSP, Method::Cho};
+constexpr int carriers = 64;
+
+/// Ratio of every attack (rows) of every method (columns), under one key.
+std::vector<std::array<double, methods.size()>> ratios(const Surface& cover, Statistic statistic, int number)
+{
+    const Key key("robustness " + std::to_string(number));
+    Stream draws = key.stream("message");
+    Bits message;
+    for (int i = 0; i < carriers; ++i)
+        message.push_back(static_cast<std::uint8_t>(draws.below(2)));
+
+    std::vector<std::array<double, methods.size()>> result(rows().size());
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+        EmbedOptions embedding;
+        embedding.method = methods[m];
+        embedding.statistic = statistic;
+        embedding.bits = carriers;
+        embedding.message = message;
+        embedding.trim = 0.1;
+        Surface stego = cover;
+        embed(stego, key, embedding);
+        for (std::size_t r = 0; r < rows().size(); ++r) {
+            Surface attacked = stego;
+            AttackOptions attack = rows()[r].attack;
+            attack.seed = number;
+            apply_attack(attacked, attack);
+            DetectOptions detection;
+            static_cast<CarrierOptions&>(detection) = embedding;
+            result[r][m] = detection_ratio(message, detect(attacked, key, detection).bits);
+        }
+    }
+    return result;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    const Statistic statistic = argc > 1 && std::string(argv[1]) == "Variance" ? Statistic::Variance : Statistic::Mean;
+    const int keys = argc > 2 ? std::atoi(argv[2]) : 5;
+    std::vector<std::string> meshes(argv + std::min(argc, 3), argv + argc);
+    if (meshes.empty())
+        meshes = {"bunny00.off", "fandisk.off"};
+    for (const std::string& mesh : meshes) {
+        const Surface cover = load(mesh);
+        std::vector<std::array<double, methods.size()>> mean(rows().size());
+        for (int number = 0; number < keys; ++number) {
+            const auto one = ratios(cover, statistic, number);
+            for (std::size_t r = 0; r < mean.size(); ++r)
+                for (std::size_t m = 0; m < methods.size(); ++m)
+                    mean[r][m] += one[r][m] / keys;
+        }
+        std::printf("%s, %s, %d bits, trim 0.1, %d keys\n%-22s", mesh.c_str(), name(statistic), carriers, keys, "");
+        for (const Method method : methods)
+            std::printf("%6s", name(method));
+        std::printf("\n");
+        for (std::size_t r = 0; r < mean.size(); ++r) {
+            std::printf("%-22s", rows()[r].label);
+            for (const double ratio : mean[r])
+                std::printf("%6.2f", ratio);
+            std::printf("\n");
+        }
+        std::fflush(stdout);
+    }
+}
