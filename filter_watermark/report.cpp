@@ -116,7 +116,7 @@ std::map<std::string, HostValue> to_values(const Json& results)
     for (const auto& [name, value] : results.items()) {
         if (value.is_object()) {
             for (const auto& [part, number] : value.items())
-                values[name + "_" + part] = number.get<double>();
+                values[std::string(name).append("_").append(part)] = number.get<double>();
         } else if (name == "warnings") {
             values[name] = int(value.size());
         } else if (name == "bits") {

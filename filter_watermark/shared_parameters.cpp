@@ -63,8 +63,9 @@ vcg_ext::Key read_key(const RichParameterList& values)
 
 void add_report_parameter(RichParameterList& list)
 {
-    list.addParam(
-        RichFileSave("Report", "", "*.json", "Report", "Where to write the results as JSON; empty for nowhere."));
+    list.addParam(RichFileSave("Report", "", "*.json", "Report",
+                               "Where to write the results as JSON; empty for nowhere. In MeshLab 2020.09's window, "
+                               "choose the file with the button: text typed beside it is not taken."));
 }
 
 double read_number(const RichParameterList& values, const QString& name)

@@ -18,11 +18,11 @@ meshlabserver() {
 echo
 echo "== meshlabserver: embed '(c) Jane' into bunny00"
 meshlabserver -i "$root/build/data/meshes/bunny00.off" -s "$root/meshlab_scripts/embed.mlx" -o "$PWD/marked.ply"
-sed -nE 's/^(mrms_relative): (.*)/MRMS over the diagonal: \2/p' meshlabserver.log
+sed -nE 's/^LOG: 2 (mrms_relative): (.*)/MRMS over the diagonal: \2/p' meshlabserver.log
 
 echo "== meshlabserver: detect from the file, with the key alone"
 meshlabserver -i "$PWD/marked.ply" -s "$root/meshlab_scripts/detect.mlx"
-sed -nE 's/^(message|p_value|present): /\1: /p' meshlabserver.log
+sed -nE 's/^LOG: 2 ((message|p_value|present): )/\1/p' meshlabserver.log
 
 echo
 echo "== pymeshlab: the same in Python (meshlab_scripts/quickstart.py)"

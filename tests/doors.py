@@ -116,7 +116,7 @@ class PyMeshLab:
     name = "pymeshlab"
     plugin = BUILD / "meshlab-2025.07" / "libfilter_watermark.so"
     loaded = False
-    # pymeshlab keeps a pointer to the log of the MeshSet whose filter failed last, and writes to it; so these must live on.
+    # pymeshlab keeps a pointer to the log of the MeshSet whose filter failed, and writes to it: these must live on.
     failed: ClassVar[list[pymeshlab.MeshSet]] = []
 
     def __init__(self) -> None:

@@ -34,6 +34,8 @@ def embed(job: Job, site: Site) -> Numbers:
     results["seconds"] = sum(
         value for name, value in results.items() if name.startswith("seconds_") and name != "seconds_measure"
     )
+    moved = sum(value for name, value in results.items() if name.startswith("moves_"))
+    results |= {name: value / moved for name, value in results.items() if name.startswith("moves_")}
     results |= plugin.distortion(meshes, reference=0)
     return results | _read(plugin.opened(_marked(job, site)), job)
 

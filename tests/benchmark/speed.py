@@ -1,7 +1,7 @@
 """Embedding through pymeshlab against MeshLab's own load of the same file, in the same run.
 
-bunny00 subdivided by Loop's scheme (twice: 603,266 vertices), saved as a binary PLY; each is timed several times, in turn, and
-the medians and their ratio are printed.
+bunny00 subdivided by Loop's scheme (twice: 603,266 vertices), saved as a binary PLY; each is timed several times,
+in turn, and the medians and their ratio are printed.
 """
 
 import argparse
@@ -50,8 +50,8 @@ def main() -> None:
                 embed.append(time.perf_counter() - loaded)
             ratio = statistics.median(embed) / statistics.median(load)
             print(
-                f"{method:9} load {statistics.median(load):.2f} s  embed {statistics.median(embed):.2f} s  ratio {ratio:.2f}  "
-                f"{report}"
+                f"{method:9} load {statistics.median(load):.2f} s  embed {statistics.median(embed):.2f} s  "
+                f"ratio {ratio:.2f}  {report}"
             )
 
 

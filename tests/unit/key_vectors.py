@@ -1,5 +1,5 @@
-"""Prints the test vectors of key_test.cpp by a second implementation: argon2-cffi, hashlib's BLAKE2b, and RFC 8439's ChaCha20
-core (with the original 64-bit counter) written out here. Needs `pip install argon2-cffi`."""
+"""Prints the test vectors of key_test.cpp by a second implementation: argon2-cffi, hashlib's BLAKE2b, and RFC 8439's
+ChaCha20 core (with the original 64-bit counter) written out here. Needs `pip install argon2-cffi`."""
 
 import hashlib
 import itertools

@@ -9,8 +9,7 @@
 
 using namespace vcg_ext;
 
-namespace
-{
+namespace {
 
 /// The tail by whole numbers of any length, rounded once.
 double exact_tail(int n, int k)
