@@ -36,6 +36,7 @@ def main() -> None:
         help="address of a dask scheduler; its workers see the same files, and have PYTHONPATH=meshlab_scripts",
     )
     parser.add_argument("--retry", action="store_true", help="run again what failed")
+    parser.add_argument("--report-only", action="store_true", help="run nothing; report what is there")
     arguments = parser.parse_args()
 
     named = PROTOCOLS / f"{arguments.protocol}.toml"
@@ -49,7 +50,8 @@ def main() -> None:
     if arguments.retry:
         store.forget_failed()
     cases = protocol.cases(site.meshes, site.plugin)
-    run_missing([case.job for case in cases], site, store, arguments.scheduler)
+    if not arguments.report_only:
+        run_missing([case.job for case in cases], site, store, arguments.scheduler)
     report = arguments.report or arguments.work / protocol.name
     write_report(protocol, cases, site, store, report)
     store.close()
