@@ -3,6 +3,6 @@
 
 #include <string>
 
-/// One of the OFF, PLY and STL meshes that set-up unpacked from Debian's libcgal-demo, such as "bunny00.off"; polygons are cut to
-/// triangles. \throw std::runtime_error where it cannot be read
+/// One of the OFF, PLY and STL meshes that set-up unpacked from Debian's libcgal-demo, such as "bunny00.off"; polygons
+/// are cut to triangles. \throw std::runtime_error where it cannot be read
 [[nodiscard]] vcg_ext::Surface load(const std::string& name);
