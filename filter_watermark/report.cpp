@@ -57,6 +57,8 @@ Json to_json(const vcg_ext::DetectReport& report)
         json["present"] = *report.present;
     if (report.smoothing_rounds)
         json["smoothing_rounds"] = *report.smoothing_rounds;
+    if (!report.orientation.empty())
+        json["orientation"] = report.orientation;
     json["seconds"] = report.seconds;
     json["warnings"] = report.warnings;
     return json;

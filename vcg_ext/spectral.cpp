@@ -123,7 +123,8 @@ std::vector<AxisFlips> orientations(const PatchPlan& plan)
 
 bool symmetric(const Frame& frame, int axis)
 {
-    constexpr double clear = 0.005; // noise, smoothing and simplification move it by less (tests/benchmark)
+    // Noise, quantization, smoothing and simplification move bunny00's small one, 0.010, by at most 0.0016.
+    constexpr double clear = 0.005;
     return std::abs(frame.third_moments[axis]) < clear * std::pow(frame.variances[axis], 1.5);
 }
 
