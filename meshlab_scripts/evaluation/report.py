@@ -19,7 +19,7 @@ def write_report(protocol: Protocol, cases: list[Case], site: Site, store: Store
         (folder / part).mkdir(parents=True, exist_ok=True)
     frame = collect(cases, store)
     untimed, times = split_times(frame)
-    failed = untimed[untimed["error"] != ""].dropna(axis=1, how="all")
+    failed = untimed.loc[untimed["error"] != "", :"error"]
     for name, rows in {"results": untimed, "times": times, "errors": failed}.items():
         rows.to_csv(folder / f"{name}.csv", index=False, float_format="%.6g")
 
@@ -71,7 +71,7 @@ def _provenance(protocol: Protocol, cases: list[Case], site: Site, frame: pd.Dat
     failed = int((frame["error"] != "").sum())
     meshes = sorted({case.job.mesh for case in cases})
     lines = [
-        f"- {len(cases)} results, {failed} failed; {len(cases) - len(frame)} not run. {protocol.keys} keys.",
+        f"- {len(frame)} of {len(cases)} jobs were run, {failed} of them failed. Keys: {protocol.keys}.",
         f"- Plugin {digest(site.plugin)}; Python {platform.python_version()}, "
         + ", ".join(f"{package} {version(package)}" for package in packages),
         "- Meshes: " + ", ".join(f"{mesh} ({digest(mesh_file(site.meshes, mesh))})" for mesh in meshes),
