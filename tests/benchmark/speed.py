@@ -51,7 +51,7 @@ def main() -> None:
             ratio = statistics.median(embed) / statistics.median(load)
             print(
                 f"{method:9} load {statistics.median(load):.2f} s  embed {statistics.median(embed):.2f} s  "
-                f"ratio {ratio:.2f}  {report}"
+                f"ratio {ratio:.2f}  rounds {report['rounds']}"
             )
 
 
