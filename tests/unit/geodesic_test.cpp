@@ -1,0 +1,140 @@
+#include "support/load.h"
+#include "support/shapes.h"
+#include "support/topology.h"
+#include "vcg_ext/watermark.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace vcg_ext;
+
+namespace {
+
+const Key& test_key()
+{
+    static const Key key("geodesic_test");
+    return key;
+}
+
+EmbedOptions options_for(Statistic statistic, int bits)
+{
+    EmbedOptions options;
+    options.method = Method::Geodesic;
+    options.statistic = statistic;
+    options.bits = bits;
+    options.trim = 0.1;
+    options.message = parse_message("hex:c0ffee");
+    return options;
+}
+
+DetectReport read(const Surface& surface, const EmbedOptions& embedded)
+{
+    DetectOptions options;
+    static_cast<CarrierOptions&>(options) = embedded;
+    options.expected = embedded.message;
+    return detect(surface, test_key(), options);
+}
+
+/// Whether embedding and detection both work, and both give one warning that has `text` in it.
+void expect_marked_with_warning(Surface surface, const std::string& text)
+{
+    const EmbedOptions options = options_for(Statistic::Mean, 24);
+    const EmbedReport embedded = embed(surface, test_key(), options);
+    const DetectReport found = read(surface, options);
+    EXPECT_EQ(*found.detection_ratio, 1);
+    for (const std::vector<std::string>& warnings : {embedded.warnings, found.warnings}) {
+        ASSERT_EQ(warnings.size(), 1);
+        EXPECT_NE(warnings[0].find(text), std::string::npos);
+    }
+}
+
+TEST(Geodesic, MeshWithABorderIsAlignedByItsSurface)
+{
+    Surface s = shapes::sphere(5);
+    for (Point& p : s.points)
+        p = Point(1.7 * p.x() + 0.2 * p.y() * p.y(), 1.2 * p.y() + 0.1 * p.x() * p.x(), p.z());
+    const auto in_cap = [&](const Triangle& t) { return s.points[t[0]].z() > 0.8; };
+    s.triangles.erase(std::remove_if(s.triangles.begin(), s.triangles.end(), in_cap), s.triangles.end());
+    expect_marked_with_warning(s, "not closed");
+}
+
+/// A twisted band: one side, one border.
+TEST(Geodesic, MeshThatIsNotOrientableIsAlignedByItsSurface)
+{
+    constexpr int around = 300;
+    constexpr int across = 20;
+    Surface s;
+    const double pi = std::acos(-1.0);
+    for (int i = 0; i < around; ++i)
+        for (int j = 0; j <= across; ++j) {
+            const double u = 2 * pi * i / around;
+            const double w = 0.6 * j / across - 0.3;
+            const double radius = 1 + w * std::cos(u / 2);
+            s.points.emplace_back(1.3 * radius * std::cos(u), radius * std::sin(u), w * std::sin(u / 2));
+        }
+    for (int i = 0; i < around; ++i)
+        for (int j = 0; j < across; ++j) {
+            const bool last = i + 1 == around;
+            const auto next = [&](int k) { return last ? across - k : (i + 1) * (across + 1) + k; };
+            const int a = i * (across + 1) + j;
+            s.triangles.push_back({a, next(j), next(j + 1)});
+            s.triangles.push_back({a, next(j + 1), a + 1});
+        }
+    expect_marked_with_warning(s, "not consistently oriented");
+}
+
+TEST(Geodesic, PartsThatTheFrontNeverReachesStayAsTheyAre)
+{
+    const Surface body = load("fandisk.off");
+    const double size = bounding_diagonal(body);
+    Point centre = Point::Zero();
+    for (const Point& p : body.points)
+        centre += p / static_cast<double>(body.points.size());
+    // Inside the body, so that the farthest hit is on the body for every key.
+    const Surface inner = shapes::moved(shapes::sphere(2), 0.01 * size, 0, {1, 0, 0}, centre);
+    Surface s = joined(body, inner);
+    const EmbedOptions options = options_for(Statistic::Mean, 24);
+    const EmbedReport report = embed(s, test_key(), options);
+    ASSERT_EQ(report.warnings.size(), 1);
+    EXPECT_NE(report.warnings[0].find(std::to_string(inner.points.size()) + " vertices"), std::string::npos);
+    for (std::size_t v = body.points.size(); v < s.points.size(); ++v)
+        EXPECT_EQ(s.points[v], inner.points[v - body.points.size()].cast<float>().cast<double>());
+    EXPECT_EQ(*read(s, options).detection_ratio, 1);
+}
+
+TEST(Geodesic, EmptyStripsAreRefusedWithTheNumberThatTheMeshCarries)
+{
+    Surface s = load("fandisk.off");
+    const Points before = s.points;
+    try {
+        embed(s, test_key(), options_for(Statistic::Mean, 1024));
+        FAIL();
+    } catch (const Error& error) {
+        const std::string text = error.what();
+        const std::size_t at = text.find("This mesh carries ");
+        ASSERT_NE(at, std::string::npos);
+        const int fewer = std::stoi(text.substr(at + 18));
+        EXPECT_GT(fewer, 100);
+        EXPECT_LT(fewer, 1024);
+        EXPECT_EQ(s.points, before);
+        embed(s, test_key(), options_for(Statistic::Mean, fewer));
+    }
+}
+
+// geodesic.md, and half of what the thesis reports in Table 4.2 (0.46 to 0.64): ratios to Cho do not depend on scale.
+TEST(Geodesic, DistortsAQuarterOfChoAtMost)
+{
+    for (const char* mesh : {"bunny00.off", "fandisk.off"})
+        for (const Statistic statistic : {Statistic::Mean, Statistic::Variance}) {
+            EmbedOptions options = options_for(statistic, 64);
+            Surface ours = load(mesh);
+            const EmbedReport report = embed(ours, test_key(), options);
+            EXPECT_LE(report.moves->unconverged, 0.002 * report.moves->total());
+            options.method = Method::Cho;
+            Surface cho = load(mesh);
+            EXPECT_LT(report.mrms, 0.25 * embed(cho, test_key(), options).mrms);
+        }
+}
+
+} // namespace
