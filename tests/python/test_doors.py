@@ -7,7 +7,7 @@ from doors import DETECT, DOORS, EMBED, MESHES, STATISTICS, Value
 
 KEY = "correct horse battery staple"
 MESSAGE = "(c) 2026"
-METHODS = ["L-M", "QSP", "Cho", "Geodesic"]
+METHODS = ["L-M", "QSP", "Cho", "Geodesic", "Spectral"]
 
 pytestmark = pytest.mark.usefixtures("display")
 
