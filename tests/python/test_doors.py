@@ -3,11 +3,10 @@
 from pathlib import Path
 
 import pytest
-from doors import DETECT, DOORS, EMBED, MESHES, STATISTICS, Value
+from doors import DETECT, DOORS, EMBED, MESHES, METHODS, STATISTICS, Value
 
 KEY = "correct horse battery staple"
 MESSAGE = "(c) 2026"
-METHODS = ["L-M", "QSP", "Cho", "Geodesic", "Spectral"]
 
 pytestmark = pytest.mark.usefixtures("display")
 

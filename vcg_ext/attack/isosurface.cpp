@@ -149,7 +149,9 @@ void set_signs(Volume& volume, const Surface& surface)
 /// Puts the distance where marching cubes will look: at the corners of crossed cells.
 void set_distances(Volume& volume, const Surface& surface, const Progress& progress)
 {
-    const auto& [nx, ny, nz] = volume.size();
+    const int nx = volume.size()[0];
+    const int ny = volume.size()[1];
+    const int nz = volume.size()[2];
     std::vector<char> wanted(static_cast<std::size_t>(nx) * ny * nz, 0);
     for (int k = 0; k + 1 < nz; ++k)
         for (int j = 0; j + 1 < ny; ++j)
