@@ -216,7 +216,7 @@ std::vector<Arrival> march(const Surface& surface, const VertexFaces& around, co
             const int others[2] = {t[(corner + 1) % 3], t[(corner + 2) % 3]};
             for (int k = 0; k < 2; ++k)
                 if (distance[others[k]] == never)
-                    reach(others[k], [&](Arrival& a) {
+                    reach(others[k], [&, v = v](Arrival& a) {
                         pass_face(surface, around, distance, *f, v, others[1 - k], surface.points[others[k]], options,
                                   a);
                     });
