@@ -272,12 +272,12 @@ void check_patches(const PatchReading& reading, const std::vector<int>& bits, st
     constexpr int fewest = 8;
     if (bits.size() < wanted)
         throw Error("The mesh has " + std::to_string(bits.size()) + " patches for " + std::to_string(wanted) +
-                    " bits. Set fewer bits, or less trim.");
+                    " bits.");
     for (std::size_t k = 0; k < bits.size(); ++k)
         if (bits[k] >= 0 && reading.shapes[k].samples < fewest)
             throw Error("A patch holds " + std::to_string(reading.shapes[k].samples) + " vertices, and " +
                         std::to_string(fewest) +
-                        " are the fewest that have a shape. Set fewer bits, or use a finer mesh.");
+                        " are the fewest that have a shape.");
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "watermark.h"
 
 #include "carrier/shells.h"
+#include "check.h"
 #include "geodesic.h"
 #include "metric/displacement.h"
 #include "metric/statistics.h"
@@ -79,7 +80,7 @@ void check_options(const CarrierOptions& options)
     if (options.bits < 1 || options.bits > most_bits)
         throw Error("Bits is " + std::to_string(options.bits) + ", but must lie between 1 and " +
                     std::to_string(most_bits) + ".");
-    if (options.trim > most_trim || std::isnan(options.trim))
+    if (!(options.trim == -1 || (options.trim >= 0 && options.trim <= most_trim)))
         throw Error("Trim is " + text(options.trim) + ", but must lie between 0 and " + text(most_trim) +
                     ", or be -1 to be drawn from the key.");
 }
@@ -98,27 +99,6 @@ double checked_strength(const EmbedOptions& options)
         throw Error("Strength is " + text(strength) + ", but for this method it must lie above " + text(range.above) +
                     " and up to " + text(range.most) + ", or be 0 for the default of " + text(range.usual) + ".");
     return strength;
-}
-
-void check_surface(const Surface& surface)
-{
-    const auto not_finite =
-        std::count_if(surface.points.begin(), surface.points.end(), [](const Point& p) { return !p.allFinite(); });
-    if (not_finite > 0)
-        throw Error(std::to_string(not_finite) + " of the " + std::to_string(surface.points.size()) +
-                    " vertices have coordinates that are no finite numbers. Remove these vertices first.");
-    if (surface.triangles.empty())
-        throw Error("The mesh has no faces, so it has no surface to mark. Reconstruct the surface first.");
-}
-
-Welded checked_weld(const Surface& surface)
-{
-    check_surface(surface);
-    Welded welded = weld(surface);
-    if (welded.surface.triangles.empty())
-        throw Error(
-            "No face of the mesh has three distinct corners. Check its coordinates, or reconstruct the surface.");
-    return welded;
 }
 
 Points rounded_to_float(const Points& points)
@@ -156,16 +136,6 @@ Carriers found_carriers(const Surface& surface, const Key& key, const CarrierOpt
         return strips.carriers;
     }
     return shells(surface.points, surface.triangles, report.trim, options.bits).carriers;
-}
-
-int most_that_fills(const ScalarMethod& method, int bits)
-{
-    for (int fewer = bits - 1; fewer > 0; --fewer) {
-        const std::vector<int> count = samples(method.cut(fewer));
-        if (*std::min_element(count.begin(), count.end()) > 0)
-            return fewer;
-    }
-    return 0;
 }
 
 /// The bits to be written, by carrier.
@@ -224,19 +194,16 @@ Points place_scalar(const Surface& surface, const Key& key, const Secrets& secre
     const ScalarMethod method = scalar_method(surface, key, options, secrets.trim, result);
     const std::vector<int> count = samples(method.cover);
     result.samples_min = *std::min_element(count.begin(), count.end());
-    if (result.samples_min == 0) {
-        const int fewer = most_that_fills(method, options.bits);
+    if (result.samples_min == 0)
         throw Error(std::to_string(std::count(count.begin(), count.end(), 0)) + " of the " +
-                    std::to_string(options.bits) + " carriers hold no vertex. This mesh carries " +
-                    std::to_string(fewer) + " bits with this method and key; shorten the message or use a finer mesh.");
-    }
+                    std::to_string(options.bits) + " carriers hold no vertex.");
     const double guard = float_guard(surface.points, method.cover);
     bool as_float = true;
     if (guard > 0.2) {
         if (options.storage == Storage::Float)
             throw Error(
                 "The mesh lies so far from the origin, or has so little range, that float coordinates are coarser than "
-                "its carriers. Move it to the origin, or set fewer bits.");
+                "its carriers. Move it to the origin, or use another method.");
         as_float = false;
         result.warnings.emplace_back(
             "The mark is finer than float coordinates: save to a file format that holds doubles, or "
@@ -249,8 +216,7 @@ Points place_scalar(const Surface& surface, const Key& key, const Secrets& secre
     result.rounds = placed.rounds;
     const std::string wrong = list_wrong_bits(placed.margins, secrets);
     if (!wrong.empty())
-        throw Error("These bits could not be read back: " + wrong +
-                    ". Set fewer bits, or use a finer mesh or another method.");
+        throw Error("These bits could not be read back: " + wrong + ".");
     return std::move(placed.points);
 }
 
@@ -269,37 +235,24 @@ double self_check(const Surface& marked, const Key& key, const CarrierOptions& o
     return ratio;
 }
 
-} // namespace
+struct Marked {
+    EmbedReport report;
+    Points points;
+};
 
-const char* name(Method method)
-{
-    constexpr const char* names[] = {"L-M", "QSP", "Cho", "Geodesic", "Spectral"};
-    return names[static_cast<int>(method)];
-}
-
-const char* name(Statistic statistic)
-{
-    return statistic == Statistic::Mean ? "Mean" : "Variance";
-}
-
-EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, const Progress& progress)
+/// \param options checked and complete
+Marked mark(const Surface& surface, const Welded& welded, const Key& key, const EmbedOptions& options,
+            const Progress& progress)
 {
     Stopwatch watch;
-    EmbedOptions options = wanted;
-    if (options.bits == 0)
-        options.bits = static_cast<int>(options.message.size());
-    check_options(options);
     EmbedReport result;
     result.method = options.method;
     result.statistic = options.statistic;
-    result.bits = pad_message(options.message, options.bits);
-    result.strength = checked_strength(options);
+    result.bits = options.message;
+    result.strength = options.strength;
     result.carriers = options.bits;
     const Secrets secrets = draw_secrets(key, options);
     result.trim = secrets.trim;
-
-    report(progress, 0, "Finding carriers");
-    const Welded welded = checked_weld(surface);
     const Points placed =
         options.method == Method::Spectral
             ? embed_spectral(welded.surface, {secrets.carrier_of_bit, secrets.trim, options.as_printed}, secrets.mask,
@@ -313,7 +266,7 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
         marked.points = rounded_to_float(marked.points);
     result.detection_ratio = self_check(marked, key, options, result);
     if (result.detection_ratio < 1)
-        throw Error("The blind self-check did not read every bit back. Set fewer bits, or use a finer mesh.");
+        throw Error("The blind self-check did not read every bit back.");
     result.seconds["check"] = watch.lap();
 
     report(progress, 95, "Measuring");
@@ -323,9 +276,82 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
                              vertex_faces(static_cast<int>(placed.size()), welded.surface.triangles));
     result.mrms_relative = result.mrms / bounding_diagonal(welded.surface);
     result.seconds["measure"] = watch.lap();
-    report(progress, 100, "Done");
-    surface.points = std::move(marked.points);
-    return result;
+    return {std::move(result), std::move(marked.points)};
+}
+
+/// Fewer bits that do read back, by trying three quarters of the last number again and again; 0 where not even one
+/// does. Both the message's first bits and their opposites must: so every carrier has carried either.
+int bits_that_read_back(const Surface& surface, const Welded& welded, const Key& key, const EmbedOptions& wanted,
+                        const Progress& progress)
+{
+    const auto reads_back = [&](const Bits& message) {
+        EmbedOptions options = wanted;
+        options.bits = static_cast<int>(message.size());
+        options.message = message;
+        try {
+            mark(surface, welded, key, options,
+                 [&progress](int, const char*) { return !progress || progress(50, "Finding how many bits fit"); });
+            return true;
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const Error&) {
+            return false;
+        }
+    };
+    for (int bits = 3 * wanted.bits / 4; bits > 0; bits = 3 * bits / 4) {
+        Bits message(wanted.message.begin(), wanted.message.begin() + bits);
+        if (!reads_back(message))
+            continue;
+        for (std::uint8_t& bit : message)
+            bit ^= 1;
+        if (reads_back(message))
+            return bits;
+    }
+    return 0;
+}
+
+} // namespace
+
+const char* name(Method method)
+{
+    constexpr const char* names[] = {"L-M", "QSP", "Cho", "Geodesic", "Spectral"};
+    return names[static_cast<int>(method)];
+}
+
+TooManyBits::TooManyBits(const std::string& cause, int number)
+    : Error(cause + (number > 0 ? " This mesh carries " + std::to_string(number) +
+                                      " bits with this method and key: set Bits to that, shorten the message, or use a "
+                                      "finer mesh."
+                                : " With this method and key this mesh carries not even one bit: use another method, or a finer mesh.")),
+      carries(number)
+{
+}
+
+const char* name(Statistic statistic)
+{
+    return statistic == Statistic::Mean ? "Mean" : "Variance";
+}
+
+EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, const Progress& progress)
+{
+    EmbedOptions options = wanted;
+    if (options.bits == 0)
+        options.bits = static_cast<int>(options.message.size());
+    check_options(options);
+    options.message = pad_message(options.message, options.bits);
+    options.strength = checked_strength(options);
+    report(progress, 0, "Finding carriers");
+    const Welded welded = checked_weld(surface);
+    try {
+        Marked marked = mark(surface, welded, key, options, progress);
+        report(progress, 100, "Done");
+        surface.points = std::move(marked.points);
+        return marked.report;
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error& cause) {
+        throw TooManyBits(cause.what(), bits_that_read_back(surface, welded, key, options, progress));
+    }
 }
 
 DetectReport detect(const Surface& surface, const Key& key, const DetectOptions& options, const Progress& progress)

@@ -127,13 +127,23 @@ struct DetectReport {
     std::vector<int> carrier_of_vertex; ///< per vertex the number of the bit it carries, or -1
 };
 
+/// Thrown where a mesh cannot carry so many bits with this method and key.
+class TooManyBits : public Error {
+public:
+    TooManyBits(const std::string& cause, int number);
+
+    int carries; ///< a number of bits that was tried and read back, whatever their values; 0 where there is none
+};
+
 /// Hides a message in the positions of `surface`.
 ///
 /// Ends with a blind detection on the coordinates as they will be stored; carriers that read wrong or weak get a
 /// corrected target and another round.
 ///
-/// \throw Error      on bad input, or where the message could not be read back: says what to do. `surface` is
-/// unchanged. \throw Cancelled  where `progress` returned false. `surface` is unchanged.
+/// \throw Error       on bad input: says what to do. `surface` is unchanged, as after the other two.
+/// \throw TooManyBits where the message could not be read back, or the method finds no carriers; names a number of bits
+///                    that could
+/// \throw Cancelled   where `progress` returned false
 EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& options, const Progress& progress = {});
 
 /// Reads a message with the key alone. Same input, same answer: at any number of threads, on any machine.

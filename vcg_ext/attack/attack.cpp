@@ -1,5 +1,6 @@
 #include "attack.h"
 
+#include "../check.h"
 #include "affine.h"
 #include "crop.h"
 #include "isosurface.h"
@@ -174,22 +175,6 @@ int checked_iterations(const Row& row, int iterations)
                     " it must be between 1 and " + std::to_string(r.most_iterations) + ", or -1 for " +
                     std::to_string(r.iterations) + ".");
     return iterations;
-}
-
-/// Distinct positions with a face between them; attacks need nothing more, and nothing less.
-Welded checked_weld(const Surface& surface)
-{
-    const auto not_finite =
-        std::count_if(surface.points.begin(), surface.points.end(), [](const Point& p) { return !p.allFinite(); });
-    if (not_finite > 0)
-        throw Error(std::to_string(not_finite) + " of the " + std::to_string(surface.points.size()) +
-                    " vertices have coordinates that are no finite numbers. Remove these vertices first.");
-    Welded welded = weld(surface);
-    if (welded.surface.triangles.empty())
-        throw Error(
-            "The mesh has no face with three distinct corners, so there is no surface to attack. Reconstruct the "
-            "surface first.");
-    return welded;
 }
 
 } // namespace

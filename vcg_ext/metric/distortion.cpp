@@ -1,5 +1,6 @@
 #include "distortion.h"
 
+#include "../check.h"
 #include "../geometry/closest.h"
 #include "../geometry/moments.h"
 #include "../parallel.h"
@@ -20,16 +21,6 @@ struct Pair {
     std::vector<int> site_of_vertex; ///< per vertex of the measured mesh as it came
     bool same_faces = false;
 };
-
-void check(const Surface& surface, const char* which)
-{
-    if (!std::all_of(surface.points.begin(), surface.points.end(), [](const Point& p) { return p.allFinite(); }))
-        throw Error(std::string("The ") + which +
-                    " mesh has coordinates that are no finite numbers. Remove these vertices first.");
-    if (surface.triangles.empty())
-        throw Error(std::string("The ") + which +
-                    " mesh has no faces, so it has no surface to measure. Reconstruct the surface first.");
-}
 
 /// The positions of `measured` for the sites of the reference; empty where vertices that share one there do not here.
 Points corresponding_sites(const Surface& measured, const Welded& reference)
@@ -208,8 +199,8 @@ DistortionReport measure(const Surface& reference, const Surface& measured, cons
     if (options.samples < 0)
         throw Error("Samples is " + std::to_string(options.samples) +
                     ", but must be 1 or more, or 0 for ten per vertex of the larger mesh.");
-    check(reference, "reference");
-    check(measured, "measured");
+    check_surface(reference, "reference mesh");
+    check_surface(measured, "measured mesh");
     report(progress, 0, "Search trees");
     const Pair pair = make_pair_of(reference, measured);
     const ClosestSearch to_reference(pair.reference);

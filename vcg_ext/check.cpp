@@ -1,0 +1,57 @@
+#include "check.h"
+
+#include "error.h"
+
+#include <algorithm>
+#include <string>
+
+namespace vcg_ext {
+
+namespace {
+
+// Moments go with the sixth power of the size, quadrics' determinants with the twelfth of it over its square.
+constexpr double largest = 1e35;
+constexpr double smallest = 1e-35;
+
+} // namespace
+
+void check_surface(const Surface& surface, const char* which)
+{
+    const std::string mesh = std::string("The ") + which;
+    const auto not_finite =
+        std::count_if(surface.points.begin(), surface.points.end(), [](const Point& p) { return !p.allFinite(); });
+    if (not_finite > 0)
+        throw Error(std::to_string(not_finite) + " of the " + std::to_string(surface.points.size()) +
+                    " vertices have coordinates that are no finite numbers. Remove these vertices first.");
+    if (surface.triangles.empty())
+        throw Error(mesh +
+                    " has no faces, so there is no surface. Open a mesh with faces, or reconstruct the surface.");
+    const auto vertices = static_cast<int>(surface.points.size());
+    for (const Triangle& t : surface.triangles)
+        if (std::any_of(t.begin(), t.end(), [vertices](int v) { return v < 0 || v >= vertices; }))
+            throw Error("A face of the " + std::string(which) + " refers to a vertex that does not exist.");
+    Point low = surface.points[surface.triangles[0][0]];
+    Point high = low;
+    for (const Triangle& t : surface.triangles)
+        for (const int v : t) {
+            low = low.cwiseMin(surface.points[v]);
+            high = high.cwiseMax(surface.points[v]);
+        }
+    if (low.minCoeff() < -largest || high.maxCoeff() > largest)
+        throw Error(mesh + " has coordinates of more than 1e35. Scale it down first.");
+    const double size = (high - low).maxCoeff();
+    if (size > 0 && size < smallest)
+        throw Error(mesh + " is smaller than 1e-35. Scale it up first.");
+}
+
+Welded checked_weld(const Surface& surface, const char* which)
+{
+    check_surface(surface, which);
+    Welded welded = weld(surface);
+    if (welded.surface.triangles.empty())
+        throw Error("No face of the " + std::string(which) +
+                    " has three distinct corners. Check its coordinates, or reconstruct the surface.");
+    return welded;
+}
+
+} // namespace vcg_ext
