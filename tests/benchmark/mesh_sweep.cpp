@@ -1,0 +1,237 @@
+// Every mesh of libcgal-demo by every method: marked and read back, or refused with a reason; anything else must not
+// be. Where embedding names a number of bits that the mesh carries, that number is tried too.
+//
+// Each job runs in a process of its own with a time limit, so that a crash or a hang is seen, and only counted once.
+// Usage: mesh_sweep [--soup] [--every N] [--seconds N] [--verbose]
+//   --soup     no face shares a vertex with another, and coordinates are floats: what an STL file holds
+//   --every N  each Nth mesh only
+
+#include "support/load.h"
+#include "vcg_ext/watermark.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <dirent.h>
+#include <functional>
+#include <map>
+#include <sys/wait.h>
+#include <unistd.h>
+
+using namespace vcg_ext;
+
+namespace {
+
+enum Outcome { marked, refused, wrong, crashed, hung, outcomes };
+constexpr const char* outcome_names[] = {"marked", "refused", "wrong", "crashed", "hung"};
+
+struct Settings {
+    bool soup = false;
+    bool verbose = false;
+    int every = 1;
+    int seconds = 120;
+};
+
+struct Job {
+    Method method;
+    Statistic statistic;
+};
+
+constexpr std::array<Job, 9> jobs = {{{Method::LM, Statistic::Mean},
+                                      {Method::LM, Statistic::Variance},
+                                      {Method::QSP, Statistic::Mean},
+                                      {Method::QSP, Statistic::Variance},
+                                      {Method::Cho, Statistic::Mean},
+                                      {Method::Cho, Statistic::Variance},
+                                      {Method::Geodesic, Statistic::Mean},
+                                      {Method::Geodesic, Statistic::Variance},
+                                      {Method::Spectral, Statistic::Mean}}};
+
+std::vector<std::string> all_meshes()
+{
+    std::vector<std::string> names;
+    DIR* folder = opendir(DATA_DIR);
+    while (const dirent* entry = folder ? readdir(folder) : nullptr)
+        if (std::strrchr(entry->d_name, '.') > entry->d_name)
+            names.emplace_back(entry->d_name);
+    if (folder)
+        closedir(folder);
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+Surface as_soup(const Surface& surface)
+{
+    Surface soup;
+    for (const Triangle& t : surface.triangles) {
+        const int first = static_cast<int>(soup.points.size());
+        for (const int v : t)
+            soup.points.emplace_back(surface.points[v].cast<float>().cast<double>());
+        soup.triangles.push_back({first, first + 1, first + 2});
+    }
+    return soup;
+}
+
+bool same(const Points& a, const Points& b)
+{
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Point)) == 0); // NaN is NaN here
+}
+
+/// What became of one try, and the text of an error.
+std::pair<Outcome, std::string> try_to_mark(const Surface& cover, const Key& key, const EmbedOptions& options,
+                                            int* carries = nullptr)
+{
+    Surface stego = cover;
+    try {
+        const EmbedReport report = embed(stego, key, options);
+        DetectOptions reading;
+        static_cast<CarrierOptions&>(reading) = options;
+        reading.expected = report.bits;
+        if (!std::all_of(stego.points.begin(), stego.points.end(), [](const Point& p) { return p.allFinite(); }))
+            return {wrong, "coordinates that are not finite"};
+        if (detect(stego, key, reading).bits != report.bits)
+            return {wrong, "other bits were read"};
+        return {marked, ""};
+    } catch (const TooManyBits& error) {
+        if (carries)
+            *carries = error.carries;
+        return {same(stego.points, cover.points) ? refused : wrong, error.what()};
+    } catch (const Error& error) {
+        return {same(stego.points, cover.points) ? refused : wrong, error.what()};
+    } catch (const std::exception& error) {
+        return {wrong, std::string("another kind of exception: ") + error.what()};
+    }
+}
+
+std::pair<Outcome, std::string> run(const Surface& cover, const Key& key, const Job& job)
+{
+    EmbedOptions options;
+    options.method = job.method;
+    options.statistic = job.statistic;
+    options.message = parse_message("hex:0123456789abcdef");
+    DetectOptions reading;
+    static_cast<CarrierOptions&>(reading) = options;
+    reading.expected = options.message;
+    try {
+        if (*detect(cover, key, reading).present)
+            return {wrong, "a mark was found in the unmarked mesh"};
+    } catch (const Error&) {
+        // a refusal; other exceptions end this process
+    }
+    int carries = 0;
+    auto result = try_to_mark(cover, key, options, &carries);
+    if (result.first == refused && carries > 0) {
+        options.bits = carries;
+        options.message.resize(carries);
+        const auto [outcome, text] = try_to_mark(cover, key, options);
+        if (outcome != marked)
+            return {wrong, "the number named does not work: " + result.second + " / " + text};
+    }
+    return result;
+}
+
+/// Runs `work` in another process. What that process can still say it says through a pipe.
+std::pair<Outcome, std::string> apart(int seconds, const std::function<std::pair<Outcome, std::string>()>& work)
+{
+    int ends[2];
+    if (pipe(ends) != 0)
+        std::abort();
+    std::fflush(stdout);
+    const pid_t child = fork();
+    if (child == 0) {
+        close(ends[0]);
+        alarm(static_cast<unsigned>(seconds));
+        const auto [outcome, text] = work();
+        const std::string line = static_cast<char>('0' + outcome) + text;
+        const bool told = write(ends[1], line.data(), line.size()) == static_cast<ssize_t>(line.size());
+        _exit(told ? 0 : 1);
+    }
+    close(ends[1]);
+    std::string line;
+    char buffer[4096];
+    for (ssize_t got = 0; (got = read(ends[0], buffer, sizeof buffer)) > 0;)
+        line.append(buffer, static_cast<std::size_t>(got));
+    close(ends[0]);
+    int status = 0;
+    waitpid(child, &status, 0);
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
+        return {hung, "more than " + std::to_string(seconds) + " s"};
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || line.empty())
+        return {crashed, "status " + std::to_string(status)};
+    return {static_cast<Outcome>(line[0] - '0'), line.substr(1)};
+}
+
+} // namespace
+
+int main(int count, char** arguments)
+{
+    Settings settings;
+    for (int i = 1; i < count; ++i) {
+        const std::string argument = arguments[i];
+        const auto number = [&] { return i + 1 < count ? std::atoi(arguments[++i]) : 0; };
+        if (argument == "--soup")
+            settings.soup = true;
+        else if (argument == "--verbose")
+            settings.verbose = true;
+        else if (argument == "--every")
+            settings.every = std::max(1, number());
+        else if (argument == "--seconds")
+            settings.seconds = std::max(1, number());
+        else
+            return std::fprintf(stderr, "usage: mesh_sweep [--soup] [--every N] [--seconds N] [--verbose]\n"), 2;
+    }
+
+    const Key key("mesh_sweep");
+    std::array<std::array<int, outcomes>, jobs.size()> counts{};
+    std::map<std::string, int> reasons;
+    const std::vector<std::string> names = all_meshes();
+    int meshes = 0;
+    for (std::size_t m = 0; m < names.size(); m += static_cast<std::size_t>(settings.every)) {
+        // vcglib's importers throw at some files, and read others for ever.
+        const auto [loaded, why] = apart(20, [&]() -> std::pair<Outcome, std::string> {
+            try {
+                return {load(names[m]).points.empty() ? refused : marked, "no vertices"};
+            } catch (const std::exception& error) {
+                return {refused, error.what()};
+            }
+        });
+        if (loaded != marked) {
+            std::printf("%s is left out, its importer %s: %s\n", names[m].c_str(), outcome_names[loaded], why.c_str());
+            continue;
+        }
+        Surface cover = load(names[m]);
+        ++meshes;
+        if (settings.soup)
+            cover = as_soup(cover);
+        for (std::size_t j = 0; j < jobs.size(); ++j) {
+            const auto [outcome, text] = apart(settings.seconds, [&] { return run(cover, key, jobs[j]); });
+            ++counts[j][outcome];
+            if (outcome == refused)
+                ++reasons[text];
+            if (outcome > refused || (settings.verbose && outcome == refused))
+                std::printf("%s, %s %s: %s: %s\n", names[m].c_str(), name(jobs[j].method), name(jobs[j].statistic),
+                            outcome_names[outcome], text.c_str());
+        }
+    }
+
+    std::printf("\n%d of %zu meshes%s, 64 bits\n%-18s", meshes, names.size(), settings.soup ? " as soups" : "", "");
+    for (const char* outcome : outcome_names)
+        std::printf(" %8s", outcome);
+    std::printf("\n");
+    int failures = 0;
+    for (std::size_t j = 0; j < jobs.size(); ++j) {
+        std::printf("%-9s%-9s", name(jobs[j].method), name(jobs[j].statistic));
+        for (int outcome = 0; outcome < outcomes; ++outcome) {
+            std::printf(" %8d", counts[j][outcome]);
+            failures += outcome > refused ? counts[j][outcome] : 0;
+        }
+        std::printf("\n");
+    }
+    std::printf("\nReasons of the refusals:\n");
+    for (const auto& [text, times] : reasons)
+        std::printf("%5d  %s\n", times, text.c_str());
+    return failures == 0 ? 0 : 1;
+}

@@ -1,0 +1,244 @@
+// Random meshes, broken in random ways, through random calls of the library; under the sanitizers (-DSANITIZE=
+// address,undefined), which end the program at the first fault. An Error is a good answer; then, and only then, the
+// surface must be as it was. Each case is made from one number, which is printed where something is wrong.
+// Usage: fuzz SECONDS [FIRST]     from case FIRST on, 0 without
+//        fuzz --case NUMBER       that case alone
+
+#include "support/shapes.h"
+#include "vcg_ext/attack/attack.h"
+#include "vcg_ext/metric/distortion.h"
+#include "vcg_ext/random.h"
+#include "vcg_ext/watermark.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <unistd.h>
+
+using namespace vcg_ext;
+
+namespace {
+
+constexpr unsigned seconds_per_case = 120;
+
+int pick(Stream& draws, int count)
+{
+    return static_cast<int>(draws.below(static_cast<std::uint64_t>(count)));
+}
+
+Surface start(Stream& draws)
+{
+    switch (pick(draws, 5)) {
+    case 0:
+        return shapes::box(1, 2, 3);
+    case 1:
+        return shapes::triangular_grid(1, 1, 0.1);
+    case 2: { // anything
+        Surface s;
+        const int vertices = 1 + pick(draws, 40);
+        for (int v = 0; v < vertices; ++v)
+            s.points.emplace_back(pick(draws, 4), pick(draws, 4), uniform(draws));
+        for (int f = pick(draws, 80); f > 0; --f)
+            s.triangles.push_back({pick(draws, vertices), pick(draws, vertices), pick(draws, vertices)});
+        return s;
+    }
+    default: {
+        Surface s = shapes::sphere(1 + pick(draws, 3));
+        for (Point& p : s.points)
+            p = (p * (1 + 0.3 * std::sin(5 * p.x() + 3 * p.y()))).cwiseProduct(Point(2, 1.5, 1));
+        return s;
+    }
+    }
+}
+
+void damage(Surface& s, Stream& draws)
+{
+    constexpr double odd[] = {0,     -0.0, 1e-310, 1e-30,
+                              1e30,  1e38, 1e300,  std::numeric_limits<double>::quiet_NaN(),
+                              -1e19, 1e-9, 1,      std::numeric_limits<double>::infinity()};
+    const auto vertex = [&] { return pick(draws, static_cast<int>(s.points.size())); };
+    const auto face = [&] { return pick(draws, static_cast<int>(s.triangles.size())); };
+    if (s.points.empty() || s.triangles.empty())
+        return;
+    switch (pick(draws, 12)) {
+    case 0:
+        s.points[vertex()][pick(draws, 3)] = odd[pick(draws, std::size(odd))];
+        break;
+    case 1:
+        s.points[vertex()] = s.points[vertex()];
+        break;
+    case 2:
+        s.triangles[face()][pick(draws, 3)] = vertex();
+        break;
+    case 3:
+        std::swap(s.triangles[face()][0], s.triangles[face()][1]);
+        break;
+    case 4:
+        s.triangles.push_back(s.triangles[face()]);
+        break;
+    case 5:
+        s.triangles.resize(static_cast<std::size_t>(1 + face()));
+        break;
+    case 6:
+        s.points.push_back(s.points[vertex()]);
+        break;
+    case 7: {
+        const double scale = std::pow(10, pick(draws, 60) - 30);
+        for (Point& p : s.points)
+            p *= scale;
+        break;
+    }
+    case 8: {
+        const Point shift = Point::Constant(std::pow(10, pick(draws, 12)));
+        for (Point& p : s.points)
+            p = (p + shift).cast<float>().cast<double>();
+        break;
+    }
+    case 9: {
+        const int axis = pick(draws, 3);
+        for (Point& p : s.points)
+            p[axis] = 0;
+        break;
+    }
+    case 10: {
+        const Surface copy = s;
+        const auto n = static_cast<int>(s.points.size());
+        s.points.insert(s.points.end(), copy.points.begin(), copy.points.end());
+        for (const Triangle& t : copy.triangles)
+            s.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
+        break;
+    }
+    default:
+        for (std::size_t v = 0; v < s.points.size(); v += 3)
+            s.points[v] *= 1 + uniform(draws);
+    }
+}
+
+bool same(const Surface& a, const Surface& b)
+{
+    return a.triangles == b.triangles && a.points.size() == b.points.size() &&
+           (a.points.empty() || std::memcmp(a.points.data(), b.points.data(), a.points.size() * sizeof(Point)) == 0);
+}
+
+void demand(bool holds, const char* what)
+{
+    if (!holds) {
+        std::printf("%s\n", what);
+        std::fflush(stdout);
+        std::abort();
+    }
+}
+
+void embed_and_detect(const Surface& before, const Key& key, Stream& draws)
+{
+    EmbedOptions options;
+    options.method = static_cast<Method>(pick(draws, 5));
+    options.statistic = static_cast<Statistic>(pick(draws, 2));
+    constexpr int counts[] = {1, 2, 8, 16, 64, 1024, 0, -1};
+    options.bits = counts[pick(draws, std::size(counts))];
+    constexpr double trims[] = {-1, -1, 0, 0.1, 0.45, 0.5, -2, std::numeric_limits<double>::quiet_NaN()};
+    options.trim = trims[pick(draws, std::size(trims))];
+    constexpr double strengths[] = {0, 0, 0.1, 0.3, 10, -1, 1e300, std::numeric_limits<double>::infinity()};
+    options.strength = strengths[pick(draws, std::size(strengths))];
+    options.storage = static_cast<Storage>(pick(draws, 2));
+    options.max_rounds = 3;
+    options.message = {1, 0, 1, 1, 0, 0, 1, 0};
+    DetectOptions reading;
+    static_cast<CarrierOptions&>(reading) = options;
+    reading.expected = options.message;
+    Surface after = before;
+    try {
+        const EmbedReport report = embed(after, key, options);
+        reading.bits = report.carriers;
+        demand(detect(after, key, reading).detection_ratio == 1.0, "marked, but not read back");
+    } catch (const Error&) {
+        demand(same(before, after), "an error changed the mesh");
+    }
+    try {
+        const DetectReport found = detect(before, key, reading);
+        demand(std::all_of(found.soft.begin(), found.soft.end(), [](double x) { return std::isfinite(x); }),
+               "soft values that are not finite");
+    } catch (const Error&) {
+    }
+}
+
+void attack(const Surface& before, Stream& draws)
+{
+    AttackOptions options;
+    options.attack = all_attacks()[pick(draws, static_cast<int>(all_attacks().size()))];
+    constexpr double amounts[] = {-1, -1, -1, 0, 0.05, 0.5, 0.9, 2, 16, 1e9};
+    options.amount = options.attack == Attack::Isosurface ? 0.1 : amounts[pick(draws, std::size(amounts))];
+    options.iterations = pick(draws, 4) - 1;
+    Surface after = before;
+    try {
+        apply_attack(after, options);
+        demand(std::all_of(after.points.begin(), after.points.end(), [](const Point& p) { return p.allFinite(); }),
+               "an attack left coordinates that are not finite");
+    } catch (const Error&) {
+        demand(same(before, after), "an error changed the mesh");
+    }
+}
+
+void compare(const Surface& one, const Surface& other)
+{
+    DistortionOptions options;
+    options.samples = 200;
+    try {
+        demand(std::isfinite(measure(one, other, options).mrms), "a distance that is not finite");
+    } catch (const Error&) {
+    }
+}
+
+void run(std::uint64_t number, const Key& key)
+{
+    Stream draws = seeded_stream(number, "fuzz");
+    Surface surface = start(draws);
+    const Surface whole = surface;
+    for (int i = pick(draws, 5); i > 0; --i)
+        damage(surface, draws);
+    switch (pick(draws, 4)) {
+    case 0:
+        attack(surface, draws);
+        break;
+    case 1:
+        compare(whole, surface);
+        break;
+    default:
+        embed_and_detect(surface, key, draws);
+    }
+}
+
+volatile std::uint64_t current = 0; // for the handler
+
+void tell_case(int signal)
+{
+    std::printf("case %llu: %s\n", static_cast<unsigned long long>(current), signal == SIGALRM ? "hangs" : "fails");
+    std::fflush(stdout);
+    _exit(1);
+}
+
+} // namespace
+
+int main(int count, char** arguments)
+{
+    if (count < 2)
+        return std::fprintf(stderr, "usage: fuzz SECONDS [FIRST], or fuzz --case NUMBER\n"), 2;
+    std::signal(SIGALRM, tell_case);
+    std::signal(SIGABRT, tell_case);
+    const Key key("fuzz");
+    const bool one = std::string(arguments[1]) == "--case" && count > 2;
+    const std::uint64_t first = count > 2 ? std::strtoull(arguments[2], nullptr, 10) : 0;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(one ? 0 : std::atoi(arguments[1]));
+    current = first;
+    do {
+        alarm(seconds_per_case);
+        run(current, key);
+        current = current + 1;
+    } while (std::chrono::steady_clock::now() < end);
+    std::printf("%llu cases, nothing wrong\n", static_cast<unsigned long long>(current - first));
+}
