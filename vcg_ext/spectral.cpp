@@ -276,8 +276,7 @@ void check_patches(const PatchReading& reading, const std::vector<int>& bits, st
     for (std::size_t k = 0; k < bits.size(); ++k)
         if (bits[k] >= 0 && reading.shapes[k].samples < fewest)
             throw Error("A patch holds " + std::to_string(reading.shapes[k].samples) + " vertices, and " +
-                        std::to_string(fewest) +
-                        " are the fewest that have a shape.");
+                        std::to_string(fewest) + " are the fewest that have a shape.");
 }
 
 } // namespace
