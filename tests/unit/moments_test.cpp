@@ -1,3 +1,4 @@
+#include "support/shapes.h"
 #include "vcg_ext/geometry/moments.h"
 
 #include <Eigen/Geometry>
@@ -9,16 +10,7 @@ namespace {
 
 using namespace vcg_ext;
 
-/// The box [0, a] x [0, b] x [0, c], faces outwards.
-Surface box(double a, double b, double c)
-{
-    Surface s;
-    for (int i = 0; i < 8; ++i)
-        s.points.emplace_back((i & 1) ? a : 0, (i & 2) ? b : 0, (i & 4) ? c : 0);
-    s.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-    return s;
-}
+using shapes::box;
 
 /// A tetrahedron without symmetry.
 Surface tetrahedron()

@@ -1,4 +1,5 @@
 #include "support/load.h"
+#include "support/topology.h"
 #include "vcg_ext/mesh.h"
 #include "vcg_ext/surface.h"
 
@@ -8,19 +9,6 @@
 using namespace vcg_ext;
 
 namespace {
-
-/// As an STL file has it: three vertices a face, none shared.
-Surface soup(const Surface& surface)
-{
-    Surface result;
-    for (const Triangle& t : surface.triangles) {
-        const int first = static_cast<int>(result.points.size());
-        for (const int v : t)
-            result.points.push_back(surface.points[v]);
-        result.triangles.push_back({first, first + 1, first + 2});
-    }
-    return result;
-}
 
 TEST(Weld, BringsASoupBackToTheSolid)
 {
