@@ -4,6 +4,7 @@ import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+import dask
 from dask.distributed import Client, Future, LocalCluster, as_completed
 from tqdm import tqdm
 
@@ -23,15 +24,22 @@ def run_missing(jobs: list[Job], site: Site, store: Store, scheduler: str | None
         futures: dict[str, Future] = {}
         for job in sorted(missing, key=lambda job: job.kind != "embed"):
             futures[job.name] = client.submit(run, job, site, futures.get(job.mark.name), key=job.name)
-        completed = as_completed(futures.values())
-        for future in completed:
+        lost = 0
+        for future in as_completed(futures.values()):
             job = by_name[future.key]
-            # An exception is a worker that died with the job; run() itself raises none.
-            results, error = future.result() if future.status == "finished" else ({}, repr(future.exception()))
+            if future.status == "finished":
+                results, error = future.result()
+            elif future.status == "error":  # run() raises none: the job took its worker with it
+                results, error = {}, repr(future.exception())
+            else:  # the cluster is gone, which says nothing of the job
+                lost += 1
+                continue
             store.add(job, results, error)
             bar.update()
             if error:
                 bar.write(f"{job.kind} {job.mesh} {job.method} {job.attack}: {error}")
+    if lost:
+        raise SystemExit(f"The cluster was lost with {lost} jobs to do. Run the same again: it goes on from there.")
 
 
 @contextmanager
@@ -42,6 +50,8 @@ def _client(scheduler: str | None) -> Iterator[Client]:
         return
     quiet = logging.ERROR
     with (
+        # A machine that slept, or a run that was paused, is no dead worker.
+        dask.config.set({"distributed.scheduler.worker-ttl": None}),
         LocalCluster(threads_per_worker=1, dashboard_address=None, silence_logs=quiet) as cluster,
         Client(cluster) as client,
     ):
