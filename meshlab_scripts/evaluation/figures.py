@@ -136,7 +136,7 @@ def _panels(count: int) -> list[Axes]:
 
 def _finish(axes: list[Axes], path: Path) -> None:
     figure = axes[0].figure
-    handles, names = axes[0].get_legend_handles_labels()
-    figure.legend(handles, names, loc="outside right upper", fontsize="small")
+    lines = {name: line for axis in axes for line, name in zip(*axis.get_legend_handles_labels(), strict=True)}
+    figure.legend(lines.values(), lines.keys(), loc="outside right upper", fontsize="small")
     figure.savefig(path, dpi=100, metadata={"Software": None})
     plt.close(figure)

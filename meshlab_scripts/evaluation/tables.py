@@ -104,6 +104,6 @@ def rates(frame: pd.DataFrame) -> str:
 
 def grid(lines: list[list[str]]) -> str:
     """A Markdown table; the first line is its head."""
-    head, *body = lines
+    head, *body = [[" ".join(cell.split()) for cell in line] for line in lines]
     rule = ["---"] + ["---:"] * (len(head) - 1)
     return "\n".join("| " + " | ".join(line) + " |" for line in [head, rule, *body])

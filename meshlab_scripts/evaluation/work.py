@@ -22,7 +22,7 @@ def run(job: Job, site: Site, after: object = None) -> tuple[Numbers, str]:
         plugin.load(site.plugin)
         return WORK[job.kind](job, site), ""
     except Exception as error:  # whatever it is, it belongs to this job, and the others go on
-        return {}, str(error) or repr(error)
+        return {}, " ".join(str(error).split()) or repr(error)
 
 
 def embed(job: Job, site: Site) -> Numbers:
