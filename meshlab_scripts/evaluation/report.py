@@ -44,7 +44,8 @@ def write_report(protocol: Protocol, cases: list[Case], site: Site, store: Store
 
 
 def _errors_of_detection(experiment: str, frame: pd.DataFrame, folder: Path) -> list[str]:
-    if not ((frame["experiment"] == experiment) & (frame["kind"] == "null")).any():
+    there = frame.loc[(frame["experiment"] == experiment) & (frame["error"] == ""), "kind"]
+    if not {"attack", "null"} <= set(there):
         return []
     name = f"errors-{experiment}"
     figures.error_curves(frame, experiment, folder / "figures" / f"{name}.png")
