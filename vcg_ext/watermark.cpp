@@ -319,10 +319,13 @@ const char* name(Method method)
 }
 
 TooManyBits::TooManyBits(const std::string& cause, int number)
-    : Error(cause + (number > 0 ? " This mesh carries " + std::to_string(number) +
-                                      " bits with this method and key: set Bits to that, shorten the message, or use a "
-                                      "finer mesh."
-                                : " With this method and key this mesh carries not even one bit: use another method, or a finer mesh.")),
+    : Error(
+          cause +
+          (number > 0
+               ? " This mesh carries " + std::to_string(number) +
+                     " bits with this method and key: set Bits to that, shorten the message, or use a "
+                     "finer mesh."
+               : " With this method and key this mesh carries not even one bit: use another method, or a finer mesh.")),
       carries(number)
 {
 }

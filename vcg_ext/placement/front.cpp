@@ -215,7 +215,8 @@ std::vector<double> front_mobility(const Cover& cover, const std::vector<Arrival
     std::vector<double> mobility(arrivals.size());
     for_each_index(static_cast<int>(mobility.size()), [&](int v) {
         const Point& g = arrivals[v].gradient;
-        mobility[v] = std::clamp(along_surface * g.dot(inverse_metric[v] * g), 0.0, 1.0);
+        const double along = along_surface * g.dot(inverse_metric[v] * g);
+        mobility[v] = along > 0 ? std::min(along, 1.0) : 0; // not a number where faces are needles: such a vertex stays
     });
     return mobility;
 }
