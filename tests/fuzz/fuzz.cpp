@@ -2,6 +2,7 @@
 // address,undefined), which end the program at the first fault. An Error is a good answer; then, and only then, the
 // surface must be as it was. Each case is made from one number, which is printed where something is wrong.
 // Usage: fuzz SECONDS [FIRST]     from case FIRST on, 0 without
+//        fuzz --cases COUNT       so many from case 0 on: the same on every machine
 //        fuzz --case NUMBER       that case alone
 
 #include "support/shapes.h"
@@ -227,18 +228,22 @@ void tell_case(int signal)
 int main(int count, char** arguments)
 {
     if (count < 2)
-        return std::fprintf(stderr, "usage: fuzz SECONDS [FIRST], or fuzz --case NUMBER\n"), 2;
+        return std::fprintf(stderr, "usage: fuzz SECONDS [FIRST], fuzz --cases COUNT, or fuzz --case NUMBER\n"), 2;
     std::signal(SIGALRM, tell_case);
     std::signal(SIGABRT, tell_case);
     const Key key("fuzz");
+    const bool counted = std::string(arguments[1]) == "--cases" && count > 2;
     const bool one = std::string(arguments[1]) == "--case" && count > 2;
-    const std::uint64_t first = count > 2 ? std::strtoull(arguments[2], nullptr, 10) : 0;
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(one ? 0 : std::atoi(arguments[1]));
+    const std::uint64_t number = count > 2 ? std::strtoull(arguments[2], nullptr, 10) : 0;
+    const std::uint64_t first = counted ? 0 : number;
+    const std::uint64_t last = counted ? number : one ? first + 1 : UINT64_MAX;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(std::atoi(arguments[1]));
+    const auto goes_on = [&] { return current < last && (counted || std::chrono::steady_clock::now() < end); };
     current = first;
     do {
         alarm(seconds_per_case);
         run(current, key);
         current = current + 1;
-    } while (std::chrono::steady_clock::now() < end);
+    } while (goes_on());
     std::printf("%llu cases, nothing wrong\n", static_cast<unsigned long long>(current - first));
 }
