@@ -5,7 +5,8 @@
 // mesh too. Every detection below has its own pair of key and mesh; each key is used on several meshes, where the mask
 // is the same but the bits read differ, so these are nearly so. One message is embedded and looked for throughout: what
 // makes chance of the matches must be the key's mask alone.
-// Usage: false_alarms [KEYS]    (120 without: 10,800 detections)
+// On unmarked meshes L-M, QSP and Cho read alike: their rows are the same detections, and count once.
+// Usage: false_alarms [KEYS]    (260 without: more than 10,000 detections, each counted once)
 
 #include "support/load.h"
 #include "vcg_ext/metric/statistics.h"
@@ -54,7 +55,7 @@ void print(const char* title, const Tally& tally, int tries)
 
 int main(int count, char** arguments)
 {
-    const int number_of_keys = count > 1 ? std::atoi(arguments[1]) : 120;
+    const int number_of_keys = count > 1 ? std::atoi(arguments[1]) : 260;
     constexpr std::array<const char*, 5> names = {"cow.off", "femur.off", "bones.off", "blobby.off", "triceratops.off"};
     const Bits message = parse_message("hex:0123456789abcdef");
     std::vector<Key> keys;
