@@ -30,16 +30,10 @@ void check_surface(const Surface& surface, const char* which)
     for (const Triangle& t : surface.triangles)
         if (std::any_of(t.begin(), t.end(), [vertices](int v) { return v < 0 || v >= vertices; }))
             throw Error("A face of the " + std::string(which) + " refers to a vertex that does not exist.");
-    Point low = surface.points[surface.triangles[0][0]];
-    Point high = low;
-    for (const Triangle& t : surface.triangles)
-        for (const int v : t) {
-            low = low.cwiseMin(surface.points[v]);
-            high = high.cwiseMax(surface.points[v]);
-        }
-    if (low.minCoeff() < -largest || high.maxCoeff() > largest)
+    const Eigen::AlignedBox3d box = bounding_box(surface);
+    if (box.min().minCoeff() < -largest || box.max().maxCoeff() > largest)
         throw Error(mesh + " has coordinates of more than 1e35. Scale it down first.");
-    const double size = (high - low).maxCoeff();
+    const double size = box.sizes().maxCoeff();
     if (size > 0 && size < smallest)
         throw Error(mesh + " is smaller than 1e-35. Scale it up first.");
 }

@@ -35,18 +35,18 @@ Points face_normals(const Points& points, const std::vector<Triangle>& triangles
     return normals;
 }
 
+Eigen::AlignedBox3d bounding_box(const Surface& surface)
+{
+    Eigen::AlignedBox3d box;
+    for (const Triangle& t : surface.triangles)
+        for (const int v : t)
+            box.extend(surface.points[v]);
+    return box;
+}
+
 double bounding_diagonal(const Surface& surface)
 {
-    if (surface.triangles.empty())
-        return 0;
-    Point low = surface.points[surface.triangles[0][0]];
-    Point high = low;
-    for (const Triangle& t : surface.triangles)
-        for (const int v : t) {
-            low = low.cwiseMin(surface.points[v]);
-            high = high.cwiseMax(surface.points[v]);
-        }
-    return (high - low).norm();
+    return surface.triangles.empty() ? 0 : bounding_box(surface).diagonal().norm();
 }
 
 namespace {

@@ -41,6 +41,9 @@ struct VertexFaces {
 /// Unit normals of all faces; zero where a face has no area.
 [[nodiscard]] Points face_normals(const Points& points, const std::vector<Triangle>& triangles);
 
+/// The box around the vertices that faces refer to; empty where there are none.
+[[nodiscard]] Eigen::AlignedBox3d bounding_box(const Surface& surface);
+
 /// Length of the bounding box's diagonal over the vertices that faces refer to; 0 where there are none.
 [[nodiscard]] double bounding_diagonal(const Surface& surface);
 
