@@ -185,6 +185,7 @@ int main(int count, char** arguments)
     }
 
     const Key key("mesh_sweep");
+    [[maybe_unused]] const auto derived = key.stream("before any fork: a child has no threads to wait for").next();
     std::array<std::array<int, outcomes>, jobs.size()> counts{};
     std::map<std::string, int> reasons;
     const std::vector<std::string> names = all_meshes();

@@ -18,13 +18,18 @@ static_assert(sizeof salt - 1 == crypto_pwhash_SALTBYTES);
 constexpr unsigned long long passes = 2;
 constexpr std::size_t memory = 64u << 20;
 
-void derive(std::string_view secret, std::array<unsigned char, 32>& master)
+/// A copy of secret bytes, wiped when it ends. On the heap, so that moving it leaves nothing behind.
+struct Secret {
+    explicit Secret(std::string_view secret) : bytes(secret.begin(), secret.end()) {}
+    Secret(Secret&&) = default;
+    ~Secret() { sodium_memzero(bytes.data(), bytes.size()); }
+
+    std::vector<char> bytes;
+};
+
+void derive(const Secret& secret, std::array<unsigned char, 32>& master)
 {
-    if (secret.empty())
-        throw Error("The key is empty. Give a passphrase, file:PATH or env:NAME.");
-    if (sodium_init() < 0)
-        throw Error("libsodium could not start, so there is no key. Check the system's source of random numbers.");
-    if (crypto_pwhash(master.data(), master.size(), secret.data(), secret.size(),
+    if (crypto_pwhash(master.data(), master.size(), secret.bytes.data(), secret.bytes.size(),
                       reinterpret_cast<const unsigned char*>(salt), passes, memory, crypto_pwhash_ALG_ARGON2ID13) != 0)
         throw Error(
             "Deriving the key needs 64 MiB of memory, which could not be had. Close other programs and try again.");
@@ -99,26 +104,30 @@ std::vector<int> Stream::permutation(int n)
     return order;
 }
 
+Key::Master::~Master()
+{
+    sodium_memzero(bytes.data(), bytes.size());
+}
+
 Key::Key(std::string_view secret)
 {
-    derive(secret, master_);
-}
-
-Key::Key(Key&& other) noexcept : master_(other.master_)
-{
-    sodium_memzero(other.master_.data(), other.master_.size());
-}
-
-Key::~Key()
-{
-    sodium_memzero(master_.data(), master_.size());
+    if (secret.empty())
+        throw Error("The key is empty. Give a passphrase, file:PATH or env:NAME.");
+    if (sodium_init() < 0)
+        throw Error("libsodium could not start, so there is no key. Check the system's source of random numbers.");
+    master_ = std::async(std::launch::async, [secret = Secret(secret)] {
+                  auto master = std::make_unique<Master>();
+                  derive(secret, master->bytes);
+                  return std::unique_ptr<const Master>(std::move(master));
+              }).share();
 }
 
 Stream Key::stream(std::string_view purpose) const
 {
+    const std::array<unsigned char, 32>& master = master_.get()->bytes;
     std::array<unsigned char, 32> subkey;
     crypto_generichash(subkey.data(), subkey.size(), reinterpret_cast<const unsigned char*>(purpose.data()),
-                       purpose.size(), master_.data(), master_.size());
+                       purpose.size(), master.data(), master.size());
     return Stream(subkey);
 }
 

@@ -2,6 +2,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <future>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,22 +41,23 @@ private:
 /// The 256-bit secret that all draws come from, wiped from memory when it ends.
 ///
 /// A passphrase goes through Argon2id (libsodium, 2 passes, 64 MiB, a fixed salt: detection is blind, so there is no
-/// place to keep a random one). Deriving costs some 0.1 s: do it once and pass the key on.
+/// place to keep a random one). Deriving costs some 0.1 s: do it once and pass the key on. It runs in the background,
+/// so that the mesh can be read meanwhile; the first stream() waits for it.
 class Key {
 public:
     /// \param secret the passphrase's bytes  \throw Error where it is empty
     explicit Key(std::string_view secret);
-    ~Key();
-    Key(Key&& other) noexcept;
-    Key& operator=(Key&&) = delete;
-    Key(const Key&) = delete;
-    Key& operator=(const Key&) = delete;
 
     /// Independent draws for one purpose, such as "carrier-order": keyed BLAKE2b of the purpose gives the sub-key.
+    /// \throw Error where there is not the memory to derive the key
     [[nodiscard]] Stream stream(std::string_view purpose) const;
 
 private:
-    std::array<unsigned char, 32> master_;
+    struct Master {
+        std::array<unsigned char, 32> bytes;
+        ~Master();
+    };
+    std::shared_future<std::unique_ptr<const Master>> master_;
 };
 
 /// A key from what a user typed: a passphrase, or `file:PATH` (the file's bytes), or `env:NAME`.
