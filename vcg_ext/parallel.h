@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -24,23 +25,42 @@ void for_each_index(int count, const Work& work)
     });
 }
 
-/// Sum of `term(i)` over [0, count), in an order that does not depend on the number of threads.
-/// \param zero the neutral element; also says which type to sum in
-template <class Value, class Term>
-Value ordered_sum(int count, const Value& zero, const Term& term)
+/// Takes up all i of [0, count) by `take(value, i)`, in an order that does not depend on the number of threads.
+/// \param zero what a value starts as; also says its type
+/// \param join `join(value, part)`: takes up what a part of the range came to
+template <class Value, class Take, class Join>
+Value ordered_fold(int count, const Value& zero, const Take& take, const Join& join)
 {
     constexpr int chunk = 4096;
     std::vector<Value> partial((count + chunk - 1) / chunk, zero);
     for_chunks(count, chunk, [&](int begin, int end) {
-        Value sum = zero;
+        Value value = zero;
         for (int i = begin; i < end; ++i)
-            sum += term(i);
-        partial[begin / chunk] = sum;
+            take(value, i);
+        partial[begin / chunk] = value;
     });
     Value total = zero;
     for (const Value& part : partial)
-        total += part;
+        join(total, part);
     return total;
+}
+
+/// Sum of `term(i)` over [0, count).
+template <class Value, class Term>
+Value ordered_sum(int count, const Value& zero, const Term& term)
+{
+    return ordered_fold(
+        count, zero, [&term](Value& sum, int i) { sum += term(i); },
+        [](Value& sum, const Value& part) { sum += part; });
+}
+
+/// The largest `term(i)` over [0, count), or `least` where none is larger.
+template <class Value, class Term>
+Value ordered_maximum(int count, const Value& least, const Term& term)
+{
+    const auto raise = [](Value& largest, const Value& other) { largest = std::max(largest, other); };
+    return ordered_fold(
+        count, least, [&](Value& largest, int i) { raise(largest, term(i)); }, raise);
 }
 
 } // namespace vcg_ext

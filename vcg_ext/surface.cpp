@@ -37,11 +37,14 @@ Points face_normals(const Points& points, const std::vector<Triangle>& triangles
 
 Eigen::AlignedBox3d bounding_box(const Surface& surface)
 {
-    Eigen::AlignedBox3d box;
-    for (const Triangle& t : surface.triangles)
-        for (const int v : t)
-            box.extend(surface.points[v]);
-    return box;
+    using Box = Eigen::AlignedBox3d;
+    return ordered_fold(
+        static_cast<int>(surface.triangles.size()), Box(),
+        [&](Box& box, int f) {
+            for (const int v : surface.triangles[f])
+                box.extend(surface.points[v]);
+        },
+        [](Box& box, const Box& part) { box.extend(part); });
 }
 
 double bounding_diagonal(const Surface& surface)
@@ -67,18 +70,25 @@ std::uint64_t hash(const Point& p)
 /// Gives equal positions one number, in the order in which they first come.
 class Sites {
 public:
-    explicit Sites(std::size_t expected)
+    explicit Sites(const Points& all) : all_(all), hash_(all.size())
     {
         std::size_t size = 16;
-        while (size < 2 * expected)
+        while (size < 2 * all.size())
             size *= 2;
         slot_.assign(size, -1);
+        points.reserve(all.size());
+        for_each_index(static_cast<int>(all.size()), [&](int v) { hash_[v] = hash(all[v]); });
     }
 
-    int number(const Point& p)
+    /// The site of vertex `v`. To be asked for all vertices in their order.
+    int number(std::size_t v)
     {
+        constexpr std::size_t ahead = 16; // the table is larger than the caches: fetch what comes next in time
         const std::size_t mask = slot_.size() - 1;
-        std::size_t at = hash(p) & mask;
+        if (v + ahead < hash_.size())
+            __builtin_prefetch(&slot_[hash_[v + ahead] & mask]);
+        const Point& p = all_[v];
+        std::size_t at = hash_[v] & mask;
         for (; slot_[at] >= 0; at = (at + 1) & mask)
             if (points[slot_[at]] == p)
                 return slot_[at];
@@ -90,6 +100,8 @@ public:
     Points points;
 
 private:
+    const Points& all_;
+    std::vector<std::uint64_t> hash_;
     std::vector<int> slot_; // open addressing: a table of numbers, so no order but the input's reaches the result
 };
 
@@ -98,11 +110,10 @@ private:
 Welded weld(const Surface& surface)
 {
     const std::size_t vertices = surface.points.size();
-    Sites all(vertices);
-    all.points.reserve(vertices);
+    Sites all(surface.points);
     std::vector<int> position(vertices);
     for (std::size_t v = 0; v < vertices; ++v)
-        position[v] = all.number(surface.points[v]);
+        position[v] = all.number(v);
 
     std::vector<Triangle> triangles;
     triangles.reserve(surface.triangles.size());
