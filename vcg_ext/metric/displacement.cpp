@@ -22,30 +22,14 @@ struct Sum {
     }
 };
 
-/// A face that samples may lie next to, with what tells quickly that it is too far.
-struct Nearby {
-    std::array<Point, 3> corner;
-    Point centre;
-    Point normal; ///< unit, or zero
-    double radius = 0;
-};
+/// Three points of equal weight integrate a quadratic over a triangle exactly, and the squared distance to a plane is
+/// one.
+const std::array<Point, 3> quadrature = {Point(4, 1, 1) / 6, Point(1, 4, 1) / 6, Point(1, 1, 4) / 6};
 
-Nearby nearby(const Points& points, const Triangle& t)
-{
-    Nearby face;
-    for (int k = 0; k < 3; ++k)
-        face.corner[k] = points[t[k]];
-    face.centre = (face.corner[0] + face.corner[1] + face.corner[2]) / 3;
-    face.normal = scaled_normal(points, t).normalized();
-    for (const Point& corner : face.corner)
-        face.radius = std::max(face.radius, (corner - face.centre).norm());
-    return face;
-}
-
-double distance(const Point& p, const Nearby& face)
+double distance(const Point& p, const Points& points, const Triangle& t)
 {
     const auto relative = [&](int k) {
-        const Point q = face.corner[k] - p;
+        const Point q = points[t[k]] - p;
         return vcg::Point3d(q.x(), q.y(), q.z());
     };
     double distance = 0;
@@ -55,38 +39,41 @@ double distance(const Point& p, const Nearby& face)
     return nearest.Norm();
 }
 
-/// \param faces the sample's own first: it is nearly always the nearest, and rules the others out
-double distance(const Point& p, const std::vector<Nearby>& faces)
+/// Lowers each sample's least distance where the face `t` is nearer; mostly its plane or its size says that it is not.
+void lower_distances(const std::array<Point, 3>& samples, const Points& points, const Triangle& t,
+                     std::array<double, 3>& least)
 {
-    double least = distance(p, faces[0]);
-    for (std::size_t i = 1; i < faces.size(); ++i) {
-        const Point from_centre = p - faces[i].centre;
-        const bool too_far =
-            std::abs(from_centre.dot(faces[i].normal)) >= least || from_centre.norm() - faces[i].radius >= least;
-        if (!too_far)
-            least = std::min(least, distance(p, faces[i]));
+    const Point normal = scaled_normal(points, t);
+    const Point centre = (points[t[0]] + points[t[1]] + points[t[2]]) / 3;
+    double squared_radius = 0;
+    for (const int v : t)
+        squared_radius = std::max(squared_radius, (points[v] - centre).squaredNorm());
+    const double radius = std::sqrt(squared_radius);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const Point from_centre = samples[i] - centre;
+        const double above = from_centre.dot(normal);
+        const double reach = least[i] + radius;
+        if (above * above < least[i] * least[i] * normal.squaredNorm() && from_centre.squaredNorm() < reach * reach)
+            least[i] = std::min(least[i], distance(samples[i], points, t));
     }
+}
+
+/// Distances to a face and to those that share a corner with it. The sample's own is nearly always the nearest.
+std::array<double, 3> distances(const std::array<Point, 3>& samples, const Points& points,
+                                const std::vector<Triangle>& triangles, const VertexFaces& around, int own)
+{
+    const Triangle& t = triangles[own];
+    std::array<double, 3> least;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        least[i] = distance(samples[i], points, t);
+    for (int k = 0; k < 3; ++k)
+        for (const int* f = around.begin(t[k]); f != around.end(t[k]); ++f) {
+            const auto seen = [&](int v) { return std::find(t.begin(), t.begin() + k, v) != t.begin() + k; };
+            if (*f != own && std::none_of(triangles[*f].begin(), triangles[*f].end(), seen))
+                lower_distances(samples, points, triangles[*f], least);
+        }
     return least;
 }
-
-std::vector<Nearby> face_and_ring(const Points& points, const std::vector<Triangle>& triangles,
-                                  const VertexFaces& around, int face)
-{
-    std::vector<int> ring;
-    for (const int v : triangles[face])
-        ring.insert(ring.end(), around.begin(v), around.end(v));
-    std::sort(ring.begin(), ring.end());
-    ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
-    std::vector<Nearby> faces = {nearby(points, triangles[face])};
-    for (const int f : ring)
-        if (f != face)
-            faces.push_back(nearby(points, triangles[f]));
-    return faces;
-}
-
-/// Three points of equal weight integrate a quadratic over a triangle exactly, and the squared distance to a plane is
-/// one.
-const std::array<Point, 3> quadrature = {Point(4, 1, 1) / 6, Point(1, 4, 1) / 6, Point(1, 1, 4) / 6};
 
 double rms_one_way(const Points& from, const Points& to, const std::vector<Triangle>& triangles,
                    const VertexFaces& around)
@@ -95,14 +82,14 @@ double rms_one_way(const Points& from, const Points& to, const std::vector<Trian
     const int stride = std::max(1, faces / 32768);
     const Sum sum = ordered_sum((faces + stride - 1) / stride, Sum(), [&](int i) {
         const Triangle& t = triangles[i * stride];
-        const std::vector<Nearby> faces = face_and_ring(to, triangles, around, i * stride);
-        const double area = scaled_normal(from, t).norm();
+        std::array<Point, 3> samples;
+        for (std::size_t k = 0; k < samples.size(); ++k)
+            samples[k] = quadrature[k][0] * from[t[0]] + quadrature[k][1] * from[t[1]] + quadrature[k][2] * from[t[2]];
         double squares = 0;
-        for (const Point& w : quadrature) {
-            const double d = distance(w[0] * from[t[0]] + w[1] * from[t[1]] + w[2] * from[t[2]], faces);
+        for (const double d : distances(samples, to, triangles, around, i * stride))
             squares += d * d;
-        }
-        return Sum{area * squares / static_cast<double>(quadrature.size()), area};
+        const double area = scaled_normal(from, t).norm();
+        return Sum{area * squares / static_cast<double>(samples.size()), area};
     });
     return sum.area > 0 ? std::sqrt(sum.squares / sum.area) : 0;
 }
@@ -111,18 +98,13 @@ double rms_one_way(const Points& from, const Points& to, const std::vector<Trian
 
 double max_displacement(const Points& before, const Points& after)
 {
-    double most = 0;
-    for (std::size_t v = 0; v < before.size(); ++v)
-        most = std::max(most, (after[v] - before[v]).squaredNorm());
-    return std::sqrt(most);
+    return std::sqrt(ordered_maximum(static_cast<int>(before.size()), 0.0,
+                                     [&](int v) { return (after[v] - before[v]).squaredNorm(); }));
 }
 
 int moved_count(const Points& before, const Points& after)
 {
-    int moved = 0;
-    for (std::size_t v = 0; v < before.size(); ++v)
-        moved += before[v] != after[v];
-    return moved;
+    return ordered_sum(static_cast<int>(before.size()), 0, [&](int v) { return before[v] != after[v]; });
 }
 
 double local_mrms(const Points& before, const Points& after, const std::vector<Triangle>& triangles,
