@@ -2,23 +2,50 @@
 
 #include "../parallel.h"
 
+#include <numeric>
+
 namespace vcg_ext {
 
 namespace {
 
-std::vector<int> sorted_unique(std::vector<int> numbers)
-{
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-    return numbers;
-}
+/// A set of numbers below `size`, listed in the order in which they first came.
+class Distinct {
+public:
+    explicit Distinct(std::size_t size) : has_(size, 0) {}
 
-std::vector<int> faces_around(const Cover& cover, const std::vector<int>& vertices)
+    void add(int number)
+    {
+        if (!has_[number])
+            list_.push_back(number);
+        has_[number] = 1;
+    }
+
+    void clear()
+    {
+        for (const int number : list_)
+            has_[number] = 0;
+        list_.clear();
+    }
+
+    [[nodiscard]] const std::vector<int>& list() const { return list_; }
+
+private:
+    std::vector<char> has_;
+    std::vector<int> list_;
+};
+
+/// Those for which `bad(number)` holds, asked in parallel.
+template <class Bad>
+std::vector<int> only(std::vector<int> numbers, const Bad& bad)
 {
-    std::vector<int> faces;
-    for (const int v : vertices)
-        faces.insert(faces.end(), cover.around.begin(v), cover.around.end(v));
-    return sorted_unique(std::move(faces));
+    std::vector<char> keep(numbers.size());
+    for_each_index(static_cast<int>(numbers.size()), [&](int i) { keep[i] = bad(numbers[i]); });
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        if (keep[i])
+            numbers[kept++] = numbers[i];
+    numbers.resize(kept);
+    return numbers;
 }
 
 bool is_folded(const Cover& cover, const Points& points, int face)
@@ -30,14 +57,9 @@ bool is_folded(const Cover& cover, const Points& points, int face)
 
 std::vector<int> folded_faces(const Cover& cover, const Points& points)
 {
-    const int faces = static_cast<int>(cover.triangles.size());
-    std::vector<char> bad(faces);
-    for_each_index(faces, [&](int f) { bad[f] = is_folded(cover, points, f); });
-    std::vector<int> result;
-    for (int f = 0; f < faces; ++f)
-        if (bad[f])
-            result.push_back(f);
-    return result;
+    std::vector<int> all(cover.triangles.size());
+    std::iota(all.begin(), all.end(), 0);
+    return only(std::move(all), [&](int f) { return is_folded(cover, points, f); });
 }
 
 std::vector<int> guard_folds(const Cover& cover, Points& placed, int steps,
@@ -45,21 +67,20 @@ std::vector<int> guard_folds(const Cover& cover, Points& placed, int steps,
 {
     std::vector<int> step(placed.size(), 0);
     std::vector<int> bad = folded_faces(cover, placed);
+    Distinct vertices(placed.size());
+    Distinct faces(cover.triangles.size());
     while (!bad.empty()) {
-        std::vector<int> vertices;
+        vertices.clear();
         for (const int f : bad)
-            vertices.insert(vertices.end(), cover.triangles[f].begin(), cover.triangles[f].end());
-        vertices = sorted_unique(std::move(vertices));
-        vertices.erase(std::remove_if(vertices.begin(), vertices.end(),
-                                      [&](int v) { return step[v] == steps || placed[v] == cover.points[v]; }),
-                       vertices.end());
-        for (const int v : vertices)
+            for (const int v : cover.triangles[f])
+                if (step[v] < steps && placed[v] != cover.points[v])
+                    vertices.add(v);
+        faces.clear();
+        for (const int v : vertices.list()) {
             placed[v] = ++step[v] == steps ? cover.points[v] : retreat(v, step[v]);
-        if (vertices.empty())
-            break;
-        bad = faces_around(cover, vertices);
-        bad.erase(std::remove_if(bad.begin(), bad.end(), [&](int f) { return !is_folded(cover, placed, f); }),
-                  bad.end());
+            std::for_each(cover.around.begin(v), cover.around.end(v), [&](int f) { faces.add(f); });
+        }
+        bad = only(faces.list(), [&](int f) { return is_folded(cover, placed, f); });
     }
     return step;
 }
