@@ -42,13 +42,13 @@ std::vector<std::string> strip_warnings(const Strips& strips)
     return warnings;
 }
 
-ScalarMethod geodesic_method(const Surface& surface, const Key& key, const EmbedOptions& options, double trim,
+ScalarMethod geodesic_method(const Cover& cover, const Key& key, const EmbedOptions& options, double trim,
                              EmbedReport& report)
 {
-    const auto cover = std::make_shared<const Cover>(surface);
+    const Surface& surface = cover.surface;
     bool from_volume = false;
     const SurfacePoint source = keyed_source(surface, key, &from_volume);
-    const auto strips = std::make_shared<Strips>(strips_from(source, surface, cover->around, trim, options.bits));
+    const auto strips = std::make_shared<Strips>(strips_from(source, surface, cover.around, trim, options.bits));
     strips->from_volume = from_volume;
     report.warnings = strip_warnings(*strips);
     ScalarMethod method;
@@ -58,27 +58,27 @@ ScalarMethod geodesic_method(const Surface& surface, const Key& key, const Embed
     // The least sum of squared distances from the surface: ask of each vertex in proportion to what it can do for free.
     // On fandisk the mark distorts a fifth of what it does with equal shares. The thesis' scheme has equal shares.
     method.mobility = options.front_scheme == FrontScheme::PredictCorrect
-                          ? front_mobility(*cover, strips->arrivals)
+                          ? front_mobility(cover, strips->arrivals)
                           : std::vector<double>(surface.points.size(), 1);
-    method.place = [cover, strips, &report, scheme = options.front_scheme](const std::vector<double>& told) {
+    method.place = [&cover, strips, &report, scheme = options.front_scheme](const std::vector<double>& told) {
         FrontOptions front;
         front.scheme = scheme;
         const FrontPlacement placement =
-            place_front(*cover, strips->arrivals, front_targets(*strips, cover->triangles[strips->source.face], told),
+            place_front(cover, strips->arrivals, front_targets(*strips, cover.triangles[strips->source.face], told),
                         1e-4 * strips->carriers.width, front);
         report.moves = placement.counts;
         report.guarded_vertices = placement.counts.unconverged;
         return placement.points;
     };
-    method.read = [cover, &surface, &key, trim, options](const Points& stored) {
-        return read_strips({stored, surface.triangles}, cover->around, key, trim, options.bits, options.statistic)
+    method.read = [&cover, &surface, &key, trim, options](const Points& stored) {
+        return read_strips({stored, surface.triangles}, cover.around, key, trim, options.bits, options.statistic)
             .carriers;
     };
-    method.reframe = [cover, strips, &surface, &key, trim, bits = options.bits](const Points& stored) {
+    method.reframe = [&cover, strips, &surface, &key, trim, bits = options.bits](const Points& stored) {
         const Surface marked{stored, surface.triangles};
         const SurfacePoint source = keyed_source(marked, key);
-        const double farthest = strips_from(source, marked, cover->around, trim, bits).farthest;
-        *strips = strips_from(carried_along(source, marked, surface.points), surface, cover->around, trim, bits);
+        const double farthest = strips_from(source, marked, cover.around, trim, bits).farthest;
+        *strips = strips_from(carried_along(source, marked, surface.points), surface, cover.around, trim, bits);
         strips->carriers = cut_range(strips->distances, 0, farthest, trim, bits);
         return strips->carriers;
     };

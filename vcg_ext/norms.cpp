@@ -18,9 +18,9 @@ namespace {
 /// same.
 class Placement {
 public:
-    Placement(std::shared_ptr<const Cover> cover, const EmbedOptions& options)
-        : cover_(std::move(cover)), options_(options), targets_(cover_->points.size(), NAN), best_(cover_->points),
-          iterations_(cover_->points.size(), 0), converged_(cover_->points.size(), 1)
+    Placement(const Cover& cover, const EmbedOptions& options)
+        : cover_(cover), options_(options), targets_(cover_.points.size(), NAN), best_(cover_.points),
+          iterations_(cover_.points.size(), 0), converged_(cover_.points.size(), 1)
     {
     }
 
@@ -32,8 +32,8 @@ public:
             place_by_sweeps(changed);
         else
             place_each(changed, best_, [&](int v) {
-                return options_.method == Method::QSP ? place_selective(*cover_, v, centre_, targets_[v])
-                                                      : radial_point(cover_->points[v], centre_, targets_[v]);
+                return options_.method == Method::QSP ? place_selective(cover_, v, centre_, targets_[v])
+                                                      : radial_point(cover_.points[v], centre_, targets_[v]);
             });
         if (options_.method == Method::LM)
             report.solver = summary();
@@ -50,7 +50,7 @@ private:
         std::vector<int> changed;
         for (std::size_t v = 0; v < targets.size(); ++v) {
             if (std::isnan(targets[v]))
-                best_[v] = cover_->points[v];
+                best_[v] = cover_.points[v];
             else if (!keep || targets[v] != targets_[v])
                 changed.push_back(static_cast<int>(v));
         }
@@ -72,8 +72,8 @@ private:
             const Points neighbours = sweep == 0 ? Points() : best_;
             place_each(vertices, best_, [&](int v) {
                 const Eigen::Matrix3d energy =
-                    sweep == 0 ? sphere_energy(*cover_, v, weights) : sphere_energy(*cover_, neighbours, v, weights);
-                const SphereSolution solution = place_on_sphere(cover_->points[v], centre_, targets_[v], energy);
+                    sweep == 0 ? sphere_energy(cover_, v, weights) : sphere_energy(cover_, neighbours, v, weights);
+                const SphereSolution solution = place_on_sphere(cover_.points[v], centre_, targets_[v], energy);
                 iterations_[v] = solution.iterations;
                 converged_[v] = solution.converged;
                 return solution.point;
@@ -104,18 +104,18 @@ private:
         constexpr int on_sphere = 4;
         constexpr int steps = 12;
         const auto retreat = [&](int v, int step) -> Point {
-            const Point& old = cover_->points[v];
+            const Point& old = cover_.points[v];
             const Point cho = radial_point(old, centre_, targets_[v]);
             const double part = static_cast<double>(step) / on_sphere;
             if (step <= on_sphere)
                 return radial_point(best_[v] + (cho - best_[v]) * part, centre_, targets_[v]);
             return old + (cho - old) * std::exp2(on_sphere - step);
         };
-        const std::vector<int> step = guard_folds(*cover_, points, steps, retreat);
+        const std::vector<int> step = guard_folds(cover_, points, steps, retreat);
         return static_cast<int>(std::count_if(step.begin(), step.end(), [](int s) { return s > 0; }));
     }
 
-    std::shared_ptr<const Cover> cover_;
+    const Cover& cover_;
     EmbedOptions options_;
     Point centre_ = Point::Zero();
     std::vector<double> targets_;
@@ -126,9 +126,9 @@ private:
 
 } // namespace
 
-ScalarMethod norm_method(const Surface& surface, const EmbedOptions& options, double trim, EmbedReport& report)
+ScalarMethod norm_method(const Cover& cover, const EmbedOptions& options, double trim, EmbedReport& report)
 {
-    const auto cover = std::make_shared<const Cover>(surface);
+    const Surface& surface = cover.surface;
     const auto frame = std::make_shared<Shells>(shells(surface.points, surface.triangles, trim, options.bits));
     ScalarMethod method;
     method.cover = frame->carriers;
@@ -136,8 +136,9 @@ ScalarMethod norm_method(const Surface& surface, const EmbedOptions& options, do
         return cut_range(frame->norms, frame->minimum, frame->maximum, trim, count);
     };
     method.mobility.resize(surface.points.size());
-    for (std::size_t v = 0; v < surface.points.size(); ++v)
+    for_each_index(static_cast<int>(surface.points.size()), [&](int v) {
         method.mobility[v] = frame->norms[v] == frame->minimum || frame->norms[v] == frame->maximum ? 0 : 1;
+    });
     method.place = [frame, placement = std::make_shared<Placement>(cover, options), &report](
                        const std::vector<double>& targets) { return placement->place(frame->centre, targets, report); };
     const auto marked = std::make_shared<Shells>();
@@ -145,9 +146,9 @@ ScalarMethod norm_method(const Surface& surface, const EmbedOptions& options, do
         *marked = shells(stored, surface.triangles, trim, bits);
         return marked->carriers;
     };
-    method.reframe = [cover, frame, marked, trim, bits = options.bits](const Points&) { // those that it read last
+    method.reframe = [&cover, frame, marked, trim, bits = options.bits](const Points&) { // those that it read last
         *frame = *marked;
-        return cut_range(norms(cover->points, frame->centre), frame->minimum, frame->maximum, trim, bits);
+        return cut_range(norms(cover.points, frame->centre), frame->minimum, frame->maximum, trim, bits);
     };
     return method;
 }

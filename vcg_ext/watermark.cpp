@@ -111,18 +111,17 @@ Points rounded_to_float(const Points& points)
 /// Part of a carrier that rounding to float can move a value by, with room to spare.
 double float_guard(const Points& points, const Carriers& carriers)
 {
-    double largest = 0;
-    for (const Point& p : points)
-        largest = std::max(largest, p.cwiseAbs().maxCoeff());
+    const double largest =
+        ordered_maximum(static_cast<int>(points.size()), 0.0, [&](int v) { return points[v].cwiseAbs().maxCoeff(); });
     return 4 * std::numeric_limits<float>::epsilon() * largest / carriers.width;
 }
 
-ScalarMethod scalar_method(const Surface& surface, const Key& key, const EmbedOptions& options, double trim,
+ScalarMethod scalar_method(const Cover& cover, const Key& key, const EmbedOptions& options, double trim,
                            EmbedReport& report)
 {
     if (options.method == Method::Geodesic)
-        return geodesic_method(surface, key, options, trim, report);
-    return norm_method(surface, options, trim, report);
+        return geodesic_method(cover, key, options, trim, report);
+    return norm_method(cover, options, trim, report);
 }
 
 /// The carriers as a blind detector finds them.
@@ -188,16 +187,16 @@ void judge(const Bits& expected, int tries, DetectReport& report)
 }
 
 /// Embeds by the methods that have one scalar per vertex.
-Points place_scalar(const Surface& surface, const Key& key, const Secrets& secrets, const EmbedOptions& options,
+Points place_scalar(const Cover& cover, const Key& key, const Secrets& secrets, const EmbedOptions& options,
                     EmbedReport& result, const Progress& progress)
 {
-    const ScalarMethod method = scalar_method(surface, key, options, secrets.trim, result);
+    const ScalarMethod method = scalar_method(cover, key, options, secrets.trim, result);
     const std::vector<int> count = samples(method.cover);
     result.samples_min = *std::min_element(count.begin(), count.end());
     if (result.samples_min == 0)
         throw Error(std::to_string(std::count(count.begin(), count.end(), 0)) + " of the " +
                     std::to_string(options.bits) + " carriers hold no vertex.");
-    const double guard = float_guard(surface.points, method.cover);
+    const double guard = float_guard(cover.points, method.cover);
     bool as_float = true;
     if (guard > 0.2) {
         if (options.storage == Storage::Float)
@@ -253,11 +252,12 @@ Marked mark(const Surface& surface, const Welded& welded, const Key& key, const 
     result.carriers = options.bits;
     const Secrets secrets = draw_secrets(key, options);
     result.trim = secrets.trim;
+    const Cover cover(welded.surface);
     const Points placed =
         options.method == Method::Spectral
             ? embed_spectral(welded.surface, {secrets.carrier_of_bit, secrets.trim, options.as_printed}, secrets.mask,
                              options, rounded_to_float, result, progress)
-            : place_scalar(welded.surface, key, secrets, options, result, progress);
+            : place_scalar(cover, key, secrets, options, result, progress);
     result.seconds["placement"] = watch.lap();
 
     report(progress, 85, "Checking blind");
@@ -272,8 +272,7 @@ Marked mark(const Surface& surface, const Welded& welded, const Key& key, const 
     report(progress, 95, "Measuring");
     result.moved_vertices = moved_count(surface.points, marked.points);
     result.max_displacement = max_displacement(surface.points, marked.points);
-    result.mrms = local_mrms(welded.surface.points, placed, welded.surface.triangles,
-                             vertex_faces(static_cast<int>(placed.size()), welded.surface.triangles));
+    result.mrms = local_mrms(cover.points, placed, cover.triangles, cover.around);
     result.mrms_relative = result.mrms / bounding_diagonal(welded.surface);
     result.seconds["measure"] = watch.lap();
     return {std::move(result), std::move(marked.points)};
@@ -364,10 +363,10 @@ DetectReport detect(const Surface& surface, const Key& key, const DetectOptions&
     DetectReport result;
     result.method = options.method;
     result.statistic = options.statistic;
-    const Secrets secrets = draw_secrets(key, options);
-    result.trim = secrets.trim;
     report(progress, 0, "Finding carriers");
     const Welded welded = checked_weld(surface);
+    const Secrets secrets = draw_secrets(key, options);
+    result.trim = secrets.trim;
     report(progress, 30, "Reading");
     int tries = 1;
     if (options.method == Method::Spectral)

@@ -1,4 +1,5 @@
 #pragma once
+#include "../parallel.h"
 #include "../surface.h"
 
 #include <algorithm>
@@ -7,15 +8,20 @@ namespace vcg_ext {
 
 /// The unmarked surface with what placements ask of it, computed once.
 struct Cover {
-    explicit Cover(const Surface& surface)
-        : points(surface.points), triangles(surface.triangles),
-          around(vertex_faces(static_cast<int>(points.size()), triangles)), normals(face_normals(points, triangles))
+    /// \param unmarked must outlive the cover
+    explicit Cover(const Surface& unmarked)
+        : surface(unmarked), points(surface.points), triangles(surface.triangles),
+          around(vertex_faces(static_cast<int>(points.size()), triangles)), normals(triangles.size()),
+          areas(triangles.size())
     {
-        areas.reserve(triangles.size());
-        for (const Triangle& t : triangles)
-            areas.push_back(scaled_normal(points, t).norm());
+        for_each_index(static_cast<int>(triangles.size()), [&](int f) {
+            const Point n = scaled_normal(points, triangles[f]);
+            areas[f] = n.norm();
+            normals[f] = areas[f] > 0 ? Point(n / areas[f]) : Point(Point::Zero());
+        });
     }
 
+    const Surface& surface;
     const Points& points;
     const std::vector<Triangle>& triangles;
     VertexFaces around;
