@@ -19,17 +19,18 @@ public:
         if (!mean_)
             base_ = 2 * base_ - 1;
         log_ = base_.abs().max(1e-300).log();
-        mobility_ = Eigen::ArrayXd::Ones(base_.size());
-        if (!mobility.empty() && *std::max_element(mobility.begin(), mobility.end()) > 0) {
-            mobility_ = Eigen::Map<const Eigen::ArrayXd>(mobility.data(), base_.size());
-            mobility_ /= mobility_.maxCoeff();
-        }
+        if (mobility.empty())
+            return;
+        const auto [least, most] = std::minmax_element(mobility.begin(), mobility.end());
+        if (*least < *most)
+            mobility_ = Eigen::Map<const Eigen::ArrayXd>(mobility.data(), base_.size()) / *most;
     }
 
     [[nodiscard]] Eigen::ArrayXd at(double log_beta) const
     {
-        const Eigen::ArrayXd beta = (log_beta * mobility_).exp();
-        return (beta * log_).exp().max(least_).min(most_);
+        if (mobility_.size() == 0)
+            return (std::exp(log_beta) * log_).exp().max(least_).min(most_);
+        return ((log_beta * mobility_).exp() * log_).exp().max(least_).min(most_);
     }
 
     [[nodiscard]] double statistic(double log_beta) const
@@ -53,7 +54,7 @@ private:
     double most_;
     Eigen::ArrayXd base_;
     Eigen::ArrayXd log_;
-    Eigen::ArrayXd mobility_;
+    Eigen::ArrayXd mobility_; ///< empty where all are equal
 };
 
 } // namespace
@@ -66,16 +67,18 @@ std::vector<double> map_histogram(const std::vector<double>& values, Statistic s
     const Power power(values, mobility, statistic, guard);
     const auto miss = [&](double log_beta) { return power.statistic(log_beta) - target; };
 
-    // The statistic falls as beta grows.
-    constexpr double widest = 6; // beta from 1/400 to 400
-    const double first = miss(-widest);
-    const double last = miss(widest);
-    if (first <= 0 || last >= 0)
-        return power.values(first <= 0 ? -widest : widest);
-    std::uintmax_t steps = 100;
-    const auto [low, high] = boost::math::tools::toms748_solve(miss, -widest, widest, first, last,
-                                                               boost::math::tools::eps_tolerance<double>(40), steps);
-    return power.values((low + high) / 2);
+    // The statistic falls as beta grows. Real carriers are nearly uniform, and a narrow bracket holds what they need.
+    for (const double widest : {0.7, 6.0}) { // beta from 1/2 to 2, from 1/400 to 400
+        const double first = miss(-widest);
+        const double last = miss(widest);
+        if (first > 0 && last < 0) {
+            std::uintmax_t steps = 100;
+            const auto [low, high] = boost::math::tools::toms748_solve(
+                miss, -widest, widest, first, last, boost::math::tools::eps_tolerance<double>(40), steps);
+            return power.values((low + high) / 2);
+        }
+    }
+    return power.values(miss(0) > 0 ? 6 : -6);
 }
 
 } // namespace vcg_ext
