@@ -12,8 +12,11 @@ namespace {
 struct Angle {
     explicit Angle(double radians)
     {
-        const double half_sin = std::sin(radians / 2);
-        const double half_cos = std::cos(radians / 2);
+        const double half = radians / 2;
+        const double squared = half * half;
+        const bool small = squared < 1e-4; // nearly always; then these series are exact to the last bit or two
+        const double half_sin = small ? half * (1 - squared / 6 * (1 - squared / 20)) : std::sin(half);
+        const double half_cos = small ? 1 - squared / 2 * (1 - squared / 12 * (1 - squared / 30)) : std::cos(half);
         squared_half_sin = half_sin * half_sin;
         sin = 2 * half_sin * half_cos;
         cos = 1 - 2 * squared_half_sin;
@@ -116,6 +119,7 @@ SphereSolution place_on_sphere(const Point& v, const Point& centre, double norm,
         return {v, 0, true};
     const SphereResidual residual(v, centre, norm, energy);
     ceres::TinySolver<SphereResidual> solver;
+    solver.options.initial_trust_region_radius = 1e8; // moves are small against the norm: nearly linear
     solver.options.max_num_iterations = 500;
     solver.options.parameter_tolerance = 1e-8;
     solver.options.gradient_tolerance = 1e-8;
