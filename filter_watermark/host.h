@@ -151,16 +151,6 @@ private:
     }
 };
 
-/// Recomputes what follows from the positions.
-inline void update_box_and_normals(MeshModel& layer)
-{
-#if MESHLAB_YEAR < 2021
-    layer.UpdateBoxAndNormals();
-#else
-    layer.updateBoxAndNormals();
-#endif
-}
-
 /// The current layer, or null where the document has none.
 inline const MeshModel* current_layer(const MeshDocument& document)
 {

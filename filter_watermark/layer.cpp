@@ -1,6 +1,7 @@
 #include "layer.h"
 
 #include <vcg_ext/error.h>
+#include <vcg_ext/parallel.h>
 
 #include <algorithm>
 
@@ -52,12 +53,49 @@ void put_points(MeshModel& layer, const vcg_ext::Points& points)
     });
 }
 
+/// The corners' shares in their vertices' normals: the face's normal, weighted by the angle.
+std::array<Point3m, 3> normals_by_angle(const CFaceO& face)
+{
+    const Point3m normal = vcg::TriangleNormal(face).Normalize();
+    const auto edge = [&](int j) { return (face.cP((j + 1) % 3) - face.cP(j)).Normalize(); };
+    const Point3m e0 = edge(0);
+    const Point3m e1 = edge(1);
+    const Point3m e2 = edge(2);
+    return {normal * vcg::AngleN(e0, -e2), normal * vcg::AngleN(-e0, e1), normal * vcg::AngleN(-e1, e2)};
+}
+
+/// What MeshLab's own update does on one core, with the same sums in the same order, on all of them.
+void update_box_and_normals(CMeshO& mesh)
+{
+    vcg::tri::UpdateBounding<CMeshO>::Box(mesh);
+    for (CFaceO& face : mesh.face)
+        if (!face.IsD())
+            for (int corner = 0; corner < 3; ++corner)
+                face.V(corner)->N() = Point3m(0, 0, 0);
+    constexpr int piece = 1 << 16;
+    std::vector<std::array<Point3m, 3>> shares(piece);
+    for (std::size_t first = 0; first < mesh.face.size(); first += piece) {
+        const int count = int(std::min<std::size_t>(piece, mesh.face.size() - first));
+        vcg_ext::for_each_index(count, [&](int i) {
+            CFaceO& face = mesh.face[first + i];
+            if (face.IsD())
+                return;
+            face.N() = vcg::TriangleNormal(face).Normalize();
+            shares[i] = normals_by_angle(face);
+        });
+        for (int i = 0; i < count; ++i)
+            if (!mesh.face[first + i].IsD())
+                for (int corner = 0; corner < 3; ++corner)
+                    mesh.face[first + i].V(corner)->N() += shares[i][corner];
+    }
+}
+
 } // namespace
 
 void write_positions(MeshModel& layer, const vcg_ext::Points& points)
 {
     put_points(layer, points);
-    update_box_and_normals(layer);
+    update_box_and_normals(layer.cm);
 }
 
 void write_classes(MeshModel& layer, const std::vector<int>& class_of_vertex)
@@ -90,5 +128,5 @@ void write_surface(MeshModel& layer, const vcg_ext::Surface& surface)
     for (std::size_t f = 0; f < surface.triangles.size(); ++f)
         for (int corner = 0; corner < 3; ++corner)
             mesh.face[f].V(corner) = &mesh.vert[surface.triangles[f][corner]];
-    update_box_and_normals(layer);
+    update_box_and_normals(mesh);
 }
