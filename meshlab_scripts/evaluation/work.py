@@ -13,7 +13,8 @@ from . import frames, plugin
 from .jobs import METHODS, Job, Site, mesh_file
 from .plugin import Numbers, Value
 
-STEPS = 10  # of the search for a strength: each halves the interval
+STEPS = 20  # of the search for a strength, at most
+CLOSE = 0.01  # it ends where the mark's distortion is this near below its limit
 
 
 def run(job: Job, site: Site, after: object = None) -> tuple[Numbers, str]:
@@ -114,27 +115,41 @@ def _strength(job: Job, site: Site) -> float:
 
 
 def _strongest(job: Job, site: Site) -> float:
-    low, high = (1.05, 1000.0) if job.method == "Spectral" else (0.002, 0.45)
-    if _keeps_limits(job, high, site):
-        return high
-    if not _keeps_limits(job, low, site):
-        raise ValueError(f"No strength from {low} to {high} keeps the limits {dict(job.limits)}.")
+    """From the top down to the strongest mark that keeps the limits, as if distortion grew with the strength.
+
+    What does not read back is refused: above the first mark that reads it is too strong, below it too weak.
+    """
+    least, most = (2.0, 1000.0) if job.method == "Spectral" else (0.002, 0.45)
+    strength, low, high, kept, seen = most, 0.0, math.inf, 0.0, False
     for _ in range(STEPS):
-        middle = math.sqrt(low * high)
-        if _keeps_limits(job, middle, site):
-            low = middle
+        excess = _excess(job, strength, site)
+        if excess <= 1:
+            kept = low = strength
+        elif seen and excess == math.inf:
+            low = strength
         else:
-            high = middle
-    return low
+            high = strength
+        seen = seen or excess < math.inf
+        if 1 - CLOSE <= excess <= 1 or kept == most:
+            break
+        strength *= (1 - CLOSE / 2) / excess
+        if not low < strength < high:
+            strength = math.sqrt(low * high) if low else high / 2
+        if strength < least:
+            break
+    if not kept:
+        raise ValueError(f"No strength from {least} to {most} keeps the limits {dict(job.limits)}.")
+    return kept
 
 
-def _keeps_limits(job: Job, strength: float, site: Site) -> bool:
+def _excess(job: Job, strength: float, site: Site) -> float:
+    """The mark's distortion over its limits, the worst of them; infinite where the mark does not read back."""
     cover = mesh_file(site.meshes, job.mesh)
     meshes = plugin.opened(cover, cover)
     try:
         results = plugin.embed(meshes, message=job.message, strength=strength, **_carriers(job))
     except pymeshlab.PyMeshLabException:
-        return False  # a mark so strong, or so weak, that it does not read back
+        return math.inf
     if any(name not in results for name, _ in job.limits):
         results |= plugin.distortion(meshes, reference=0)
-    return all(results[name] <= limit for name, limit in job.limits)
+    return max(results[name] / limit for name, limit in job.limits)

@@ -17,8 +17,10 @@ ROOT = Path(__file__).resolve().parents[2]
 SCRIPTS = ROOT / "meshlab_scripts"
 sys.path.insert(0, str(SCRIPTS))
 
+from evaluation import work  # noqa: E402
 from evaluation.curves import binomial_tail, equal_error_rate  # noqa: E402
 from evaluation.frames import WAYS, frames, shift  # noqa: E402
+from evaluation.jobs import Job, Site  # noqa: E402
 
 
 def command(protocol: str | Path, work: Path) -> list[str]:
@@ -114,6 +116,31 @@ def test_job_that_fails_is_recorded_and_the_rest_goes_on(tmp_path: Path) -> None
     assert "Amount is 7" in results["fandisk", "attack", "nonsense"]
     assert (results["tetrahedron"] != "").all()
     assert "## Jobs that failed" in (tmp_path / "failing" / "report.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("weakest", [0.001, 0.03, 0.14])
+@pytest.mark.parametrize("power", [0.5, 1, 2])
+def test_strength_is_the_strongest_within_the_limits(
+    weakest: float, power: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whether the distortion grows as the strength or not, and where marks below a strength do not read back."""
+    asked = []
+
+    def excess(_job: Job, strength: float, _site: Site) -> float:
+        asked.append(strength)
+        return (strength / 0.15) ** power if weakest <= strength < 0.3 else math.inf
+
+    monkeypatch.setattr(work, "_excess", excess)
+    job = Job(kind="embed", mesh="m", mesh_digest="", plugin_digest="", method="L-MMean", limits=(("mrms", 1.0),))
+    assert 0.15 * 0.98 <= work._strongest(job, Site(Path(), Path(), Path())) <= 0.15
+    assert len(asked) <= 12
+
+
+def test_strength_that_keeps_no_limit_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(work, "_excess", lambda *_: math.inf)
+    job = Job(kind="embed", mesh="m", mesh_digest="", plugin_digest="", method="L-MMean", limits=(("mrms", 1.0),))
+    with pytest.raises(ValueError, match="No strength"):
+        work._strongest(job, Site(Path(), Path(), Path()))
 
 
 def test_equal_error_rate() -> None:
