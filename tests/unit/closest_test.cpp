@@ -57,6 +57,24 @@ TEST(Closest, AgreesWithAskingEveryFace)
     compare_with_all_faces(weld(load("anchor.off")).surface, 300);
 }
 
+TEST(Closest, TakesNeedlesForEdges)
+{
+    // Beside a face lies a needle to (0, 9, 5), its corners in any order; its box's diagonal is elsewhere.
+    const Points points = {{0, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 9, 5}, {0, 4.5, 2.5}};
+    for (const Triangle& needle : {Triangle{0, 3, 4}, Triangle{4, 0, 3}, Triangle{3, 0, 4}, Triangle{0, 3, 3}}) {
+        const ClosestSearch nearest(Surface{points, {{0, 1, 2}, needle}});
+        const ClosestPoint found = nearest(Point(2, 4.5, 2.5));
+        EXPECT_NEAR(found.distance, 2, 1e-6);
+        EXPECT_EQ(found.face, 1);
+        EXPECT_NEAR((found.point - points[4]).norm(), 0, 1e-9);
+        EXPECT_NEAR(
+            nearest(Point(0.25, -0.25, 3)).distance,
+            std::hypot(0.25,
+                       (Point(0, -0.25, 3) - Point(0, 9, 5) * (Point(0, -0.25, 3).dot(Point(0, 9, 5)) / 106)).norm()),
+            1e-6);
+    }
+}
+
 TEST(Closest, TakesManyFacesInOnePlace)
 {
     // A hundred faces about one vertex, and a hundred that lie on each other.
@@ -71,7 +89,7 @@ TEST(Closest, TakesManyFacesInOnePlace)
     compare_with_all_faces(fan, 200);
 }
 
-TEST(Closest, LeavesFacesWithoutWidthOut)
+TEST(Closest, PrefersAFaceToANeedleOnItsEdge)
 {
     const Surface surface = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0, 0}}, {{0, 1, 3}, {0, 1, 2}}};
     EXPECT_EQ(ClosestSearch(surface)({0.3, -1, 0}).face, 1);

@@ -16,7 +16,7 @@ struct ClosestPoint {
 /// Finds nearest places on a surface, by vcglib's tree of faces. Built once; may be asked by many threads at once.
 ///
 /// Distances are exact up to some 1e-7 of themselves (the tree rounds its bounds to float). Faces thinner than 1e-12 of
-/// their longest edge are left out: their neighbours cover them.
+/// their longest edge count as that edge.
 class ClosestSearch {
 public:
     /// \throw Error where no face has an area
