@@ -58,7 +58,11 @@ void read_carrier_parameters(const RichParameterList& values, vcg_ext::CarrierOp
 
 vcg_ext::Key read_key(const RichParameterList& values)
 {
-    return vcg_ext::key_from_text(values.getString("Key").toStdString());
+    struct Text {
+        QByteArray bytes;
+        ~Text() { bytes.fill('\0'); }
+    } text{values.getString("Key").toUtf8()};
+    return vcg_ext::key_from_text({text.bytes.constData(), std::size_t(text.bytes.size())});
 }
 
 void add_report_parameter(RichParameterList& list)

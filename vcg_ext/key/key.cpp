@@ -4,7 +4,6 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <numeric>
 #include <sodium.h>
 
@@ -18,41 +17,63 @@ static_assert(sizeof salt - 1 == crypto_pwhash_SALTBYTES);
 constexpr unsigned long long passes = 2;
 constexpr std::size_t memory = 64u << 20;
 
-/// A copy of secret bytes, wiped when it ends. On the heap, so that moving it leaves nothing behind.
-struct Secret {
-    explicit Secret(std::string_view secret) : bytes(secret.begin(), secret.end()) {}
-    Secret(Secret&&) = default;
-    ~Secret() { sodium_memzero(bytes.data(), bytes.size()); }
+/// Wipes memory before it goes back.
+template <class Value>
+struct WipingAllocator : std::allocator<Value> {
+    template <class Other>
+    struct rebind {
+        using other = WipingAllocator<Other>;
+    };
 
-    std::vector<char> bytes;
+    void deallocate(Value* values, std::size_t count)
+    {
+        sodium_memzero(values, count * sizeof(Value));
+        std::allocator<Value>::deallocate(values, count);
+    }
 };
+
+/// Bytes that leave nothing behind when they grow, move or end.
+using Secret = std::vector<char, WipingAllocator<char>>;
 
 void derive(const Secret& secret, std::array<unsigned char, 32>& master)
 {
-    if (crypto_pwhash(master.data(), master.size(), secret.bytes.data(), secret.bytes.size(),
+    if (crypto_pwhash(master.data(), master.size(), secret.data(), secret.size(),
                       reinterpret_cast<const unsigned char*>(salt), passes, memory, crypto_pwhash_ALG_ARGON2ID13) != 0)
         throw Error(
             "Deriving the key needs 64 MiB of memory, which could not be had. Close other programs and try again.");
 }
 
-std::string read_file(const std::string& path)
+Secret read_file(const std::string& path)
 {
-    std::ifstream file(path, std::ios::binary);
+    std::ifstream file;
+    file.rdbuf()->pubsetbuf(nullptr, 0); // its buffer would keep the bytes
+    file.open(path, std::ios::binary);
     if (!file)
         throw Error("The key file '" + path + "' cannot be read. Check its path and permissions.");
-    std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    Secret bytes;
+    for (constexpr std::size_t piece = 4096; file;) {
+        const std::size_t size = bytes.size();
+        bytes.resize(size + piece);
+        file.read(bytes.data() + size, piece);
+        bytes.resize(size + file.gcount());
+    }
     if (bytes.empty())
         throw Error("The key file '" + path + "' is empty. Write the secret into it, or name another.");
     return bytes;
 }
 
-std::string read_environment(const std::string& name)
+Secret to_secret(std::string_view text)
+{
+    return Secret(text.begin(), text.end());
+}
+
+Secret read_environment(const std::string& name)
 {
     const char* value = std::getenv(name.c_str());
     if (!value || !*value)
         throw Error("The environment variable '" + name +
                     "', which should hold the key, is not set. Set it and try again.");
-    return value;
+    return to_secret(value);
 }
 
 } // namespace
@@ -115,7 +136,7 @@ Key::Key(std::string_view secret)
         throw Error("The key is empty. Give a passphrase, file:PATH or env:NAME.");
     if (sodium_init() < 0)
         throw Error("libsodium could not start, so there is no key. Check the system's source of random numbers.");
-    master_ = std::async(std::launch::async, [secret = Secret(secret)] {
+    master_ = std::async(std::launch::async, [secret = to_secret(secret)] {
                   auto master = std::make_unique<Master>();
                   derive(secret, master->bytes);
                   return std::unique_ptr<const Master>(std::move(master));
@@ -131,16 +152,13 @@ Stream Key::stream(std::string_view purpose) const
     return Stream(subkey);
 }
 
-Key key_from_text(const std::string& text)
+Key key_from_text(std::string_view text)
 {
-    std::string secret = text.rfind("file:", 0) == 0  ? read_file(text.substr(5))
-                         : text.rfind("env:", 0) == 0 ? read_environment(text.substr(4))
-                                                      : text;
-    struct Wipe {
-        std::string& bytes;
-        ~Wipe() { sodium_memzero(bytes.data(), bytes.size()); }
-    } wipe{secret};
-    return Key(secret);
+    const auto rest = [text](std::size_t begin) { return std::string(text.substr(begin)); };
+    const Secret secret = text.substr(0, 5) == "file:"  ? read_file(rest(5))
+                          : text.substr(0, 4) == "env:" ? read_environment(rest(4))
+                                                        : to_secret(text);
+    return Key({secret.data(), secret.size()});
 }
 
 } // namespace vcg_ext

@@ -63,6 +63,6 @@ private:
 /// A key from what a user typed: a passphrase, or `file:PATH` (the file's bytes), or `env:NAME`.
 ///
 /// \throw Error where the text, the file or the variable is empty or missing. The text itself is never part of it.
-[[nodiscard]] Key key_from_text(const std::string& text);
+[[nodiscard]] Key key_from_text(std::string_view text);
 
 } // namespace vcg_ext

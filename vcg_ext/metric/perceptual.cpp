@@ -145,14 +145,19 @@ std::vector<double> carried_over(const std::vector<double>& value, const Surface
         const ClosestPoint at = nearest(to.points[v]);
         const Triangle& t = from.triangles[at.face];
         const Point normal = scaled_normal(from.points, t);
-        double sum = 0;
+        Point weights;
         for (int k = 0; k < 3; ++k) {
             const Point& b = from.points[t[(k + 1) % 3]];
             const Point& c = from.points[t[(k + 2) % 3]];
-            const double weight = (b - at.point).cross(c - at.point).dot(normal) / normal.squaredNorm();
-            sum += std::clamp(weight, 0.0, 1.0) * value[t[k]];
+            weights[k] = std::clamp((b - at.point).cross(c - at.point).dot(normal) / normal.squaredNorm(), 0.0, 1.0);
         }
-        result[v] = sum;
+        const auto nearer = [&](int a, int b) {
+            return (from.points[a] - at.point).squaredNorm() < (from.points[b] - at.point).squaredNorm();
+        };
+        if (std::abs(weights.sum() - 1) < 1e-6)
+            result[v] = weights.dot(Point(value[t[0]], value[t[1]], value[t[2]]));
+        else // a needle
+            result[v] = value[*std::min_element(t.begin(), t.end(), nearer)];
     });
     return result;
 }
