@@ -14,6 +14,7 @@ Json to_json(const vcg_ext::EmbedReport& report)
         {"trim", report.trim},
         {"carriers", report.carriers},
         {"samples_min", report.samples_min},
+        {"capacity", report.capacity},
         {"detection_ratio", report.detection_ratio},
         {"rounds", report.rounds},
         {"moved_vertices", report.moved_vertices},

@@ -258,6 +258,8 @@ double worst_margin(const PatchReading& reading, const std::vector<int>& wanted,
     return worst;
 }
 
+constexpr int vertices_of_a_shape = 8; ///< at least
+
 int poorest(const PatchReading& reading, const std::vector<int>& wanted)
 {
     int fewest = std::numeric_limits<int>::max();
@@ -269,14 +271,13 @@ int poorest(const PatchReading& reading, const std::vector<int>& wanted)
 
 void check_patches(const PatchReading& reading, const std::vector<int>& bits, std::size_t wanted)
 {
-    constexpr int fewest = 8;
     if (bits.size() < wanted)
         throw Error("The mesh has " + std::to_string(bits.size()) + " patches for " + std::to_string(wanted) +
                     " bits.");
     for (std::size_t k = 0; k < bits.size(); ++k)
-        if (bits[k] >= 0 && reading.shapes[k].samples < fewest)
+        if (bits[k] >= 0 && reading.shapes[k].samples < vertices_of_a_shape)
             throw Error("A patch holds " + std::to_string(reading.shapes[k].samples) + " vertices, and " +
-                        std::to_string(fewest) + " are the fewest that have a shape.");
+                        std::to_string(vertices_of_a_shape) + " are the fewest that have a shape.");
 }
 
 } // namespace
@@ -307,6 +308,7 @@ Points embed_spectral(const Surface& surface, const PatchPlan& plan, const Bits&
             best = points;
             result.guarded_vertices = guarded;
             result.samples_min = poorest(reading, bits_of_patches(reading, plan, bits));
+            result.capacity = std::min(most_bits, options.bits * result.samples_min / vertices_of_a_shape);
         }
         result.rounds = r;
     }

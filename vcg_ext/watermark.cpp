@@ -18,7 +18,6 @@ namespace vcg_ext {
 
 namespace {
 
-constexpr int most_bits = 1024;
 constexpr double most_trim = 0.45;
 
 /// Seconds since it was last asked.
@@ -137,6 +136,23 @@ Carriers found_carriers(const Surface& surface, const Key& key, const CarrierOpt
     return shells(surface.points, surface.triangles, report.trim, options.bits).carriers;
 }
 
+/// Carriers, as many as can be found by doubling `count` and then halving the interval, of which none is empty.
+int most_carriers(const ScalarMethod& method, int count)
+{
+    const auto none_empty = [&](int carriers) {
+        const std::vector<int> held = samples(method.cut(carriers));
+        return std::find(held.begin(), held.end(), 0) == held.end();
+    };
+    int filled = count;
+    while (filled < most_bits && none_empty(std::min(2 * filled, most_bits)))
+        filled = std::min(2 * filled, most_bits);
+    for (int empty = std::min(2 * filled, most_bits); filled < most_bits && empty - filled > 1;) {
+        const int middle = (filled + empty) / 2;
+        (none_empty(middle) ? filled : empty) = middle;
+    }
+    return filled;
+}
+
 /// The bits to be written, by carrier.
 std::vector<char> carrier_bits(const Bits& message, const Secrets& secrets)
 {
@@ -196,6 +212,7 @@ Points place_scalar(const Cover& cover, const Key& key, const Secrets& secrets, 
     if (result.samples_min == 0)
         throw Error(std::to_string(std::count(count.begin(), count.end(), 0)) + " of the " +
                     std::to_string(options.bits) + " carriers hold no vertex.");
+    result.capacity = most_carriers(method, options.bits);
     const double guard = float_guard(cover.points, method.cover);
     bool as_float = true;
     if (guard > 0.2) {

@@ -25,6 +25,8 @@ enum class Statistic {
     Variance ///< (4.12), (5.11): the carrier's variance against 1/3
 };
 
+constexpr int most_bits = 1024; ///< carriers at most
+
 /// Which scalar the written file will hold. The blind self-check reads the coordinates as they will be stored.
 enum class Storage { Float, Double };
 
@@ -88,7 +90,11 @@ struct EmbedReport {
     double strength = 0; ///< as used
     double trim = 0;     ///< as used
     int carriers = 0;
-    int samples_min = 0;        ///< vertices in the poorest carrier
+    int samples_min = 0; ///< vertices in the poorest carrier
+    /// Bits that this mesh has vertices for, with this method, statistic and trim, up to 1024: so many carriers would
+    /// all hold some (Spectral: eight and more, if patches shrink alike). Whether that many read back with their
+    /// message, only embedding them tells; where it does not, TooManyBits names a number that does.
+    int capacity = 0;
     double detection_ratio = 0; ///< of the blind self-check: 1, or embed() throws
     int rounds = 0;
     int moved_vertices = 0;

@@ -303,6 +303,33 @@ TEST(Embed, WithBitsZeroTakesTheMessagesLength)
 }
 
 // Section 5.6.2: the more the third weight counts, the greater the distortion; (.49, .49, .02) is the thesis' best.
+/// By detection's own count of the vertices in each carrier.
+TEST(Embed, NamesACapacityAtWhichNoCarrierIsEmpty)
+{
+    for (const Method method : {Method::Cho, Method::Geodesic})
+        for (const char* mesh : {"fandisk.off", "bunny00.off"}) {
+            EmbedOptions options = options_for(method, Statistic::Mean);
+            options.bits = 16;
+            options.message = parse_message("bits:1");
+            options.trim = 0.1;
+            const Surface cover = load(mesh);
+            Surface stego = cover;
+            const int capacity = embed(stego, test_key(), options).capacity;
+            EXPECT_GE(capacity, options.bits);
+            const auto poorest = [&](int bits) {
+                DetectOptions reading;
+                static_cast<CarrierOptions&>(reading) = options;
+                reading.bits = bits;
+                const std::vector<int> held = detect(cover, test_key(), reading).samples;
+                return *std::min_element(held.begin(), held.end());
+            };
+            EXPECT_GT(poorest(capacity), 0) << capacity;
+            if (capacity < most_bits) {
+                EXPECT_EQ(poorest(capacity + 1), 0) << capacity;
+            }
+        }
+}
+
 TEST(SphereWeights, KeepTheOrderOfTable52)
 {
     const Surface cover = load("bunny00.off");

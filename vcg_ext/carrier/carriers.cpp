@@ -1,5 +1,7 @@
 #include "carriers.h"
 
+#include "../parallel.h"
+
 #include <cmath>
 
 namespace vcg_ext {
@@ -12,13 +14,13 @@ Carriers cut_range(const std::vector<double>& scalar, double minimum, double max
     carriers.width = (1 - 2 * trim) * (maximum - minimum) / count;
     carriers.label.assign(scalar.size(), -1);
     carriers.value.assign(scalar.size(), 0);
-    for (std::size_t v = 0; v < scalar.size(); ++v) {
+    for_each_index(static_cast<int>(scalar.size()), [&](int v) {
         const double place = (scalar[v] - carriers.low) / carriers.width;
         if (!(scalar[v] >= 0 && place >= 0 && place < count))
-            continue;
+            return;
         carriers.label[v] = static_cast<int>(place);
         carriers.value[v] = place - carriers.label[v];
-    }
+    });
     return carriers;
 }
 
