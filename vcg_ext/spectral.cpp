@@ -294,9 +294,17 @@ Points embed_spectral(const Surface& surface, const PatchPlan& plan, const Bits&
     const Frame first = reading.frame;
     check_patches(reading, bits_of_patches(reading, plan, bits), bits.size());
 
+    const auto count_vertices = [&] {
+        result.samples_min = poorest(reading, bits_of_patches(reading, plan, bits));
+        result.capacity = std::min(most_bits, options.bits * result.samples_min / vertices_of_a_shape);
+    };
+
     Points points = surface.points;
-    Points best;
-    double best_margin = -std::numeric_limits<double>::infinity();
+    Points best = points;
+    double best_margin = worst_margin(reading, bits_of_patches(reading, plan, bits), aim);
+    count_vertices();
+    if (best_margin < 0) // else the mark is there already
+        best_margin = -std::numeric_limits<double>::infinity();
     for (int r = 1; r <= options.max_rounds && best_margin < 0; ++r) {
         report(progress, 20 + 60 * (r - 1) / options.max_rounds, "Shaping patches");
         reshape(reading, plan, bits_of_patches(reading, plan, bits), aim, normals, r == 1, points);
@@ -307,8 +315,7 @@ Points embed_spectral(const Surface& surface, const PatchPlan& plan, const Bits&
             best_margin = margin;
             best = points;
             result.guarded_vertices = guarded;
-            result.samples_min = poorest(reading, bits_of_patches(reading, plan, bits));
-            result.capacity = std::min(most_bits, options.bits * result.samples_min / vertices_of_a_shape);
+            count_vertices();
         }
         result.rounds = r;
     }

@@ -59,8 +59,8 @@ def test_the_dict_has_numbers_and_vectors(marked: Path) -> None:
 def test_the_report_has_all_results(tmp_path: Path) -> None:
     report = PyMeshLab().run(EMBED, FANDISK, Report=str(tmp_path / "report.json"), **MARK)
     assert list(report) == [
-        "method", "statistic", "bits", "strength", "trim", "carriers", "samples_min", "capacity", "detection_ratio", "rounds",
-        "moved_vertices", "guarded_vertices", "max_displacement", "mrms", "mrms_relative", "seconds", "solver",
+        "method", "statistic", "bits", "strength", "trim", "carriers", "samples_min", "capacity", "detection_ratio",
+        "rounds", "moved_vertices", "guarded_vertices", "max_displacement", "mrms", "mrms_relative", "seconds", "solver",
         "warnings",
     ]  # fmt: skip
     assert report["method"] == "L-M"

@@ -32,8 +32,6 @@ double ratio(const Surface& surface, const Key& key, const EmbedOptions& embedde
 
 TEST_P(Layers, TheSameAgainMovesNextToNothing)
 {
-    if (GetParam() == Method::Spectral)
-        GTEST_SKIP() << "falls short: the second time still moves 8 % of the first";
     Surface surface = load("fandisk.off");
     const Key key("layers");
     const EmbedOptions options = options_for("museum");
