@@ -60,8 +60,8 @@ def test_the_report_has_all_results(tmp_path: Path) -> None:
     report = PyMeshLab().run(EMBED, FANDISK, Report=str(tmp_path / "report.json"), **MARK)
     assert list(report) == [
         "method", "statistic", "bits", "strength", "trim", "carriers", "samples_min", "capacity", "detection_ratio",
-        "rounds", "moved_vertices", "guarded_vertices", "max_displacement", "mrms", "mrms_relative", "seconds", "solver",
-        "warnings",
+        "rounds", "moved_vertices", "guarded_vertices", "max_displacement", "mrms", "mrms_relative", "seconds",
+        "solver", "warnings",
     ]  # fmt: skip
     assert report["method"] == "L-M"
     assert report["statistic"] == "Mean"
@@ -89,6 +89,32 @@ def test_keys_from_file_and_environment(tmp_path: Path, marked: Path, monkeypatc
     monkeypatch.setenv("WATERMARK_KEY", KEY)
     for key in (f"file:{tmp_path}/key", "env:WATERMARK_KEY"):
         assert PyMeshLab().run(DETECT, marked, Key=key, Expected=MESSAGE)["present"] is True
+
+
+@pytest.mark.parametrize("bits", [64, 1025])  # works, fails
+def test_a_key_from_a_file_reaches_no_output_and_no_script(tmp_path: Path, bits: int) -> None:
+    """All that a process prints, its report, and the script of what it did."""
+    (tmp_path / "key").write_text(KEY)
+    program = f"""
+import pymeshlab
+pymeshlab.load_plugin({str(PyMeshLab.plugin)!r})
+meshes = pymeshlab.MeshSet(verbose=True)
+meshes.load_new_mesh({str(FANDISK)!r})
+values = dict(message="{MESSAGE}", key="file:{tmp_path}/key", bits={bits})
+try:
+    print(meshes.apply_filter("apply_coord_watermark", report="{tmp_path}/report.json", **values))
+    print(meshes.apply_filter("get_watermark", key="file:{tmp_path}/key", bits={bits}))
+    meshes.save_filter_script("{tmp_path}/script.mlx")
+except pymeshlab.PyMeshLabException as error:
+    print("refused:", error)
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, check=True)
+    assert (b"refused:" in done.stdout) == (bits > 1024)
+    (tmp_path / "key").unlink()
+    written = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    assert set(written) == (set() if bits > 1024 else {"report.json", "script.mlx"})
+    for text in (done.stdout, done.stderr, *written.values()):
+        assert KEY.encode() not in text
 
 
 FAILURES: list[tuple[dict[str, Value], str]] = [

@@ -1,9 +1,10 @@
 """Regression through meshlabserver scripts: embed, write a file, detect from the file."""
 
+import json
 from pathlib import Path
 
 import pytest
-from doors import DETECT, EMBED, MESHES, ROOT, STATISTICS, MeshLabServer, Refused, Value
+from doors import DETECT, EMBED, MESHES, ROOT, STATISTICS, MeshLabServer, Refused, Value, script
 
 KEY = "correct horse battery staple"
 MESSAGE = "(c) 2026"
@@ -59,13 +60,24 @@ def test_an_unmarked_mesh_has_no_mark() -> None:
     assert found["p_value"] > 1e-3
 
 
-def test_the_key_reaches_neither_log_nor_report(tmp_path: Path, marked: Path) -> None:
+@pytest.mark.parametrize("bits", [64, 1025])  # works, fails
+def test_a_key_from_a_file_or_the_environment_reaches_neither_log_nor_report(
+    tmp_path: Path, marked: Path, bits: int
+) -> None:
     (tmp_path / "key").write_text(KEY)
-    door = MeshLabServer()
     report = tmp_path / "report.json"
-    from_file = door.run(DETECT, marked, Method="Cho", Key=f"file:{tmp_path}/key", Expected=MESSAGE, Report=str(report))
-    assert from_file["present"] is True
-    assert KEY not in report.read_text()
+    for key in (f"file:{tmp_path}/key", "env:WATERMARK_KEY"):
+        values = {"Method": "Cho", "Key": key, "Expected": MESSAGE, "Bits": bits, "Report": str(report)}
+        (tmp_path / "detect.mlx").write_text(script(DETECT, values))
+        log = tmp_path / "log"
+        arguments = ("-l", log, "-i", marked, "-s", tmp_path / "detect.mlx")
+        done = MeshLabServer().arguments(*arguments, WATERMARK_KEY=KEY)
+        assert (done.returncode == 0) == (bits == 64)
+        for text in (done.stdout, *(path.read_text() for path in (log, report) if path.exists())):
+            assert KEY not in text
+        assert report.exists() == (bits == 64)
+    if bits == 64:
+        assert json.loads(report.read_text())["present"] is True
 
 
 def test_the_scripts_for_users(tmp_path: Path) -> None:
