@@ -102,19 +102,24 @@ def _marked(job: Job, site: Site) -> Path:
 
 
 def _strength(job: Job, site: Site) -> float:
-    """The job's strength; or the strongest of its mesh and method, found with key 0, that keeps its limits."""
+    """The job's strength; or the strongest of its mesh and method, found with key 0, that keeps its limits.
+
+    What was found, or that there is none, is kept: the mark's attacks ask again where it could not be made.
+    """
     if not job.limits:
         return job.strength
     known = site.cache / f"{replace(job, key=0).name}.json"
     if not known.exists():
-        found = _strongest(replace(job, key=0), site)
         part = known.with_suffix(".part")
-        part.write_text(json.dumps(found), encoding="utf-8")
+        part.write_text(json.dumps(_strongest(replace(job, key=0), site)), encoding="utf-8")
         part.replace(known)
-    return json.loads(known.read_text(encoding="utf-8"))
+    found = json.loads(known.read_text(encoding="utf-8"))
+    if found is None:
+        raise ValueError(f"No strength keeps the limits {dict(job.limits)}: the weakest that reads distorts more.")
+    return found
 
 
-def _strongest(job: Job, site: Site) -> float:
+def _strongest(job: Job, site: Site) -> float | None:
     """From the top down to the strongest mark that keeps the limits, as if distortion grew with the strength.
 
     What does not read back is refused: above the first mark that reads it is too strong, below it too weak.
@@ -137,9 +142,7 @@ def _strongest(job: Job, site: Site) -> float:
             strength = math.sqrt(low * high) if low else high / 2
         if strength < least:
             break
-    if not kept:
-        raise ValueError(f"No strength from {least} to {most} keeps the limits {dict(job.limits)}.")
-    return kept
+    return kept or None
 
 
 def _excess(job: Job, strength: float, site: Site) -> float:

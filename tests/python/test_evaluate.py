@@ -136,11 +136,14 @@ def test_strength_is_the_strongest_within_the_limits(
     assert len(asked) <= 12
 
 
-def test_strength_that_keeps_no_limit_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(work, "_excess", lambda *_: math.inf)
+def test_no_strength_keeps_the_limits_and_is_sought_once(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    asked = []
+    monkeypatch.setattr(work, "_excess", lambda *_: asked.append(1) or math.inf)
     job = Job(kind="embed", mesh="m", mesh_digest="", plugin_digest="", method="L-MMean", limits=(("mrms", 1.0),))
-    with pytest.raises(ValueError, match="No strength"):
-        work._strongest(job, Site(Path(), Path(), Path()))
+    for _ in range(2):
+        with pytest.raises(ValueError, match="No strength"):
+            work._strength(job, Site(Path(), Path(), tmp_path))
+    assert 0 < len(asked) <= work.STEPS
 
 
 def test_equal_error_rate() -> None:
