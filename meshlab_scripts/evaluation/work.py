@@ -115,7 +115,7 @@ def _strength(job: Job, site: Site) -> float:
         part.replace(known)
     found = json.loads(known.read_text(encoding="utf-8"))
     if found is None:
-        raise ValueError(f"No strength keeps the limits {dict(job.limits)}: the weakest that reads distorts more.")
+        raise ValueError(f"No strength keeps the limits {dict(job.limits)}: those that read back distort more.")
     return found
 
 
