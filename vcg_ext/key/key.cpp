@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <mutex>
 #include <numeric>
 #include <sodium.h>
 
@@ -37,6 +38,8 @@ using Secret = std::vector<char, WipingAllocator<char>>;
 
 void derive(const Secret& secret, std::array<unsigned char, 32>& master)
 {
+    static std::mutex one_at_a_time; // each takes its memory
+    const std::lock_guard<std::mutex> lock(one_at_a_time);
     if (crypto_pwhash(master.data(), master.size(), secret.data(), secret.size(),
                       reinterpret_cast<const unsigned char*>(salt), passes, memory, crypto_pwhash_ALG_ARGON2ID13) != 0)
         throw Error(
