@@ -70,6 +70,7 @@ def mixed() -> Mesh:
 
 
 BAD_MESHES: dict[str, Callable[[], Mesh]] = {
+    "empty": lambda: (np.zeros((0, 3)), NO_FACES),
     "point cloud": lambda: (body()[0], NO_FACES),
     "one face": lambda: (np.array([[0.0, 0, 0], [1, 0, 0], [0, 2, 0]]), np.array([[0, 1, 2]], dtype=np.int32)),
     "all vertices in one place": lambda: moved(lambda p: p * 0 + 1),

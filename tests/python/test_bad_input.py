@@ -13,7 +13,7 @@ import numpy as np
 import pymeshlab
 import pytest
 from bad_meshes import BAD_MESHES, body, write_ply
-from doors import BUILD, DETECT, EMBED, METHODS, MeshLabServer, PyMeshLab, Refused
+from doors import BUILD, DETECT, EMBED, METHODS, ROOT, MeshLabServer, PyMeshLab, Refused
 
 KEY = "swordfish-of-bad-input"
 SECONDS = 240  # for all filters on one mesh
@@ -23,14 +23,18 @@ ATTACKS = 12
 Row = tuple[str, str, str, str]  # door, mesh, filter, answer
 
 
+def said_in(text: str) -> str:
+    """The filter's error in what its host printed."""
+    found = re.search(r"Error: (.*)", text)
+    return (found.group(1) if found else text).strip()
+
+
 def answer(run: object) -> str:
     """What a call says: "done", or its error."""
     try:
         run()
     except (Refused, pymeshlab.PyMeshLabException) as error:
-        text = str(error)
-        found = re.search(r"Error: (.*)", text)
-        return (found.group(1) if found else text).strip()
+        return said_in(str(error))
     return "done"
 
 
@@ -44,7 +48,10 @@ def through_pymeshlab(mesh: str, rows: "multiprocessing.Queue[list[Row]]") -> No
     def call(title: str, function: str, positions_may_change: bool, **values: object) -> None:
         meshes = pymeshlab.MeshSet()
         meshes.add_mesh(good)
-        meshes.add_mesh(pymeshlab.Mesh(points, faces))
+        meshes.add_mesh(pymeshlab.Mesh(points, faces) if len(points) else good)
+        if not len(points):  # pymeshlab makes no empty mesh
+            meshes.set_selection_all()
+            meshes.meshing_remove_selected_vertices_and_faces()
         door.failed.append(meshes)
         said = answer(lambda: meshes.apply_filter(function, **values))
         after = meshes.current_mesh()
@@ -126,3 +133,17 @@ def test_meshlabserver(mesh: str, tmp_path: Path, table: list[Row]) -> None:
         if report.exists():
             assert KEY not in report.read_text(encoding="utf-8")
             json.loads(report.read_text(encoding="utf-8"))
+    good = tmp_path / "good.ply"
+    write_ply(good, body(16))
+    for title, script, inputs in (
+        ("Attack Noise", "attacks/noise.mlx", [before]),
+        ("Attack Simplify", "attacks/simplify.mlx", [before]),
+        ("Measure", "measure.mlx", [good, before]),
+    ):
+        after.unlink(missing_ok=True)
+        arguments = ["-i", *inputs, "-s", ROOT / "meshlab_scripts" / script, "-o", after]
+        done = door.arguments(*arguments)
+        row = (door.name, mesh, title, "done" if done.returncode == 0 else said_in(done.stdout))
+        table.append(row)
+        expect_useful(row)
+        assert after.exists() == (done.returncode == 0), row
