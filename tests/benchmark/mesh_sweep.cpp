@@ -2,8 +2,8 @@
 // be. Where embedding names a number of bits that the mesh carries, that number is tried too.
 //
 // Each job runs in a process of its own with a time limit, so that a crash or a hang is seen, and only counted once.
-// Usage: mesh_sweep [--soup] [--every N] [--seconds N] [--verbose]
-//   --soup     no face shares a vertex with another, and coordinates are floats: what an STL file holds
+// Usage: mesh_sweep [--stl] [--every N] [--seconds N] [--verbose]
+//   --stl      each saved as a binary STL file, and opened from that
 //   --every N  each Nth mesh only
 
 #include "support/load.h"
@@ -28,7 +28,7 @@ enum Outcome { marked, refused, wrong, crashed, hung, outcomes };
 constexpr const char* outcome_names[] = {"marked", "refused", "wrong", "crashed", "hung"};
 
 struct Settings {
-    bool soup = false;
+    bool stl = false;
     bool verbose = false;
     int every = 1;
     int seconds = 120;
@@ -60,18 +60,6 @@ std::vector<std::string> all_meshes()
         closedir(folder);
     std::sort(names.begin(), names.end());
     return names;
-}
-
-Surface as_soup(const Surface& surface)
-{
-    Surface soup;
-    for (const Triangle& t : surface.triangles) {
-        const int first = static_cast<int>(soup.points.size());
-        for (const int v : t)
-            soup.points.emplace_back(surface.points[v].cast<float>().cast<double>());
-        soup.triangles.push_back({first, first + 1, first + 2});
-    }
-    return soup;
 }
 
 bool same(const Points& a, const Points& b)
@@ -172,8 +160,8 @@ int main(int count, char** arguments)
     for (int i = 1; i < count; ++i) {
         const std::string argument = arguments[i];
         const auto number = [&] { return i + 1 < count ? std::atoi(arguments[++i]) : 0; };
-        if (argument == "--soup")
-            settings.soup = true;
+        if (argument == "--stl")
+            settings.stl = true;
         else if (argument == "--verbose")
             settings.verbose = true;
         else if (argument == "--every")
@@ -181,7 +169,7 @@ int main(int count, char** arguments)
         else if (argument == "--seconds")
             settings.seconds = std::max(1, number());
         else
-            return std::fprintf(stderr, "usage: mesh_sweep [--soup] [--every N] [--seconds N] [--verbose]\n"), 2;
+            return std::fprintf(stderr, "usage: mesh_sweep [--stl] [--every N] [--seconds N] [--verbose]\n"), 2;
     }
 
     const Key key("mesh_sweep");
@@ -205,8 +193,8 @@ int main(int count, char** arguments)
         }
         Surface cover = load(names[m]);
         ++meshes;
-        if (settings.soup)
-            cover = as_soup(cover);
+        if (settings.stl)
+            cover = through_stl(cover);
         for (std::size_t j = 0; j < jobs.size(); ++j) {
             const auto [outcome, text] = apart(settings.seconds, [&] { return run(cover, key, jobs[j]); });
             ++counts[j][outcome];
@@ -218,7 +206,8 @@ int main(int count, char** arguments)
         }
     }
 
-    std::printf("\n%d of %zu meshes%s, 64 bits\n%-18s", meshes, names.size(), settings.soup ? " as soups" : "", "");
+    std::printf("\n%d of %zu meshes%s, 64 bits\n%-18s", meshes, names.size(), settings.stl ? " from STL files" : "",
+                "");
     for (const char* outcome : outcome_names)
         std::printf(" %8s", outcome);
     std::printf("\n");

@@ -2,7 +2,12 @@
 
 #include "vcg_ext/mesh.h"
 
+#include <filesystem>
 #include <stdexcept>
+#include <unistd.h>
+#include <wrap/io_trimesh/io_mask.h> // before the exporter, which needs it
+
+#include <wrap/io_trimesh/export_stl.h>
 #include <wrap/io_trimesh/import_off.h>
 #include <wrap/io_trimesh/import_ply.h>
 #include <wrap/io_trimesh/import_stl.h>
@@ -31,4 +36,17 @@ vcg_ext::Surface load(const std::string& name)
     if (ending == ".stl")
         return load_by<vcg::tri::io::ImporterSTL<vcg_ext::Mesh>>(path);
     return load_by<vcg::tri::io::ImporterOFF<vcg_ext::Mesh>>(path);
+}
+
+vcg_ext::Surface through_stl(const vcg_ext::Surface& surface)
+{
+    vcg_ext::Mesh mesh;
+    vcg_ext::to_mesh(surface, mesh);
+    const auto path = std::filesystem::temp_directory_path() / (std::to_string(getpid()) + ".stl");
+    using Exporter = vcg::tri::io::ExporterSTL<vcg_ext::Mesh>;
+    if (const int error = Exporter::Save(mesh, path.c_str()))
+        throw std::runtime_error(path.string() + ": " + Exporter::ErrorMsg(error));
+    vcg_ext::Surface result = load_by<vcg::tri::io::ImporterSTL<vcg_ext::Mesh>>(path);
+    std::filesystem::remove(path);
+    return result;
 }
