@@ -115,7 +115,7 @@ def _strength(job: Job, site: Site) -> float:
         part.replace(known)
     found = json.loads(known.read_text(encoding="utf-8"))
     if found is None:
-        raise ValueError(f"No strength keeps the limits {dict(job.limits)}: those that read back distort more.")
+        raise ValueError(f"No strength at which the mark reads back keeps the limits {dict(job.limits)}.")
     return found
 
 
@@ -153,6 +153,6 @@ def _excess(job: Job, strength: float, site: Site) -> float:
         results = plugin.embed(meshes, message=job.message, strength=strength, **_carriers(job))
     except pymeshlab.PyMeshLabException:
         return math.inf
-    if any(name not in results for name, _ in job.limits):
-        results |= plugin.distortion(meshes, reference=0)
+    if any(name not in results for name, _ in job.limits):  # MSDM, which takes no samples
+        results = plugin.distortion(meshes, reference=0, samples=1) | results
     return max(results[name] / limit for name, limit in job.limits)
