@@ -39,6 +39,16 @@ TEST(Remesh, StaysOnTheSurface)
     EXPECT_EQ(euler_characteristic(even), 2);
 }
 
+/// One far vertex puts all other faces into one cell of the grid; ten radii away are borne.
+TEST(Remesh, RefusesAMeshOfWhichNearlyAllIsCrowded)
+{
+    Surface ball = shapes::sphere(4);
+    ball.points[11] *= 10;
+    EXPECT_NO_THROW((void)remesh(ball, 0.3, 1));
+    ball.points[11] *= 1e6;
+    EXPECT_THROW((void)remesh(ball, mean_edge_length(ball), 10), Error);
+}
+
 TEST(Remesh, MeanEdgeOfABox)
 {
     const double diagonals = (std::sqrt(2.0) * 6);

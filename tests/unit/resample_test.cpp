@@ -42,6 +42,16 @@ TEST(Resample, TakesNewPlacesOnTheSurface)
     EXPECT_LT(kept, 300); // some on the creases stay
 }
 
+TEST(Resample, IsCancelledWithinATry)
+{
+    int calls = 0;
+    const Progress second_iteration = [&calls](int percent, const char*) {
+        EXPECT_LT(percent, 100 / 8); // of the first of eight tries
+        return ++calls < 2;
+    };
+    EXPECT_THROW((void)resample(load("fandisk.off"), 3000, second_iteration), Cancelled);
+}
+
 TEST(Resample, RefusesNumbersThatCannotBe)
 {
     const Surface quad = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};

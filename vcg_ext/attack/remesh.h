@@ -12,6 +12,7 @@ namespace vcg_ext {
 /// with a dihedral angle above 30 degrees stay.
 ///
 /// \param surface a welded one  \param length the edge length to reach
+/// \throw Error where nearly all faces lie in a small part of the bounding box, for then the searches take hours
 [[nodiscard]] Surface remesh(const Surface& surface, double length, int iterations, const Progress& progress = {});
 
 } // namespace vcg_ext

@@ -53,8 +53,10 @@ Surface resample(const Surface& surface, int vertices, const Progress& progress)
     double length = edge_for(area(surface), vertices);
     constexpr int tries = 8;
     for (int i = 0; i < tries; ++i) {
-        report(progress, 100 * i / tries, "Resampling");
-        Surface even = remesh(surface, length, remesh_iterations);
+        const Progress within = [&progress, i](int percent, const char*) {
+            return !progress || progress((100 * i + percent) / tries, "Resampling");
+        };
+        Surface even = remesh(surface, length, remesh_iterations, within);
         if (even.points.empty())
             break;
         const double ratio = static_cast<double>(even.points.size()) / vertices;

@@ -11,7 +11,7 @@ namespace vcg_ext {
 /// that gives as many vertices or a few more, and quadric collapses for what is too many.
 ///
 /// \param surface a welded one
-/// \throw Error where the number cannot be reached
+/// \throw Error where the number cannot be reached, and as remesh()
 [[nodiscard]] Surface resample(const Surface& surface, int vertices, const Progress& progress = {});
 
 } // namespace vcg_ext
