@@ -13,8 +13,9 @@ from . import frames, plugin
 from .jobs import METHODS, Job, Site, mesh_file
 from .plugin import Numbers, Value
 
+STRENGTHS = {"Mean": (0.002, 0.45), "Variance": (0.002, 0.3), "Spectral": (2.0, 1000.0)}  # what the plugin takes
 STEPS = 20  # of the search for a strength, at most
-CLOSE = 0.01  # it ends where the mark's distortion is this near below its limit
+CLOSE = 0.01  # it ends where the mark is this near to its limit
 
 
 def run(job: Job, site: Site, after: object = None) -> tuple[Numbers, str]:
@@ -122,20 +123,21 @@ def _strength(job: Job, site: Site) -> float:
 def _strongest(job: Job, site: Site) -> float | None:
     """From the top down to the strongest mark that keeps the limits, as if distortion grew with the strength.
 
-    What does not read back is refused: above the first mark that reads it is too strong, below it too weak.
+    What does not read back is refused: below the first mark that reads, but breaks the limits, it is too weak, and
+    elsewhere too strong.
     """
-    least, most = (2.0, 1000.0) if job.method == "Spectral" else (0.002, 0.45)
+    least, most = STRENGTHS.get(job.method, STRENGTHS[METHODS[job.method][1]])
     strength, low, high, kept, seen = most, 0.0, math.inf, 0.0, False
     for _ in range(STEPS):
         excess = _excess(job, strength, site)
         if excess <= 1:
             kept = low = strength
-        elif seen and excess == math.inf:
+        elif excess == math.inf and seen and not kept:
             low = strength
         else:
             high = strength
         seen = seen or excess < math.inf
-        if 1 - CLOSE <= excess <= 1 or kept == most:
+        if 1 - CLOSE <= excess <= 1 or kept == most or high < (1 + CLOSE) * kept:
             break
         strength *= (1 - CLOSE / 2) / excess
         if not low < strength < high:
