@@ -183,6 +183,8 @@ std::vector<double> mean_curvature(const Surface& surface)
     for (std::size_t v = 0; v < result.size(); ++v)
         if (const double k = scale * std::abs(curvature[v]); std::isfinite(k))
             result[v] = k;
+    for (const char* name : {"KH", "KG"}) // the mesh does not free what its attributes hold
+        vcg::tri::Allocator<Mesh>::DeletePerVertexAttribute(mesh, name);
     return result;
 }
 
