@@ -26,10 +26,7 @@ void enable(Mesh& mesh)
 /// The grid has about as many cells as the mesh has faces, over the box of them all.
 double faces_in_a_cell(const Surface& surface)
 {
-    Eigen::AlignedBox3d box;
-    for (const Triangle& t : surface.triangles)
-        for (const int v : t)
-            box.extend(surface.points[v]);
+    const Eigen::AlignedBox3d box = bounding_box(surface);
     const Point extent = box.sizes();
     vcg::Point3i cells;
     vcg::BestDim(static_cast<long long>(surface.triangles.size()), vcg::Point3d(extent.x(), extent.y(), extent.z()),
