@@ -282,10 +282,10 @@ void check_patches(const PatchReading& reading, const std::vector<int>& bits, st
 
 } // namespace
 
-Points embed_spectral(const Surface& surface, const PatchPlan& plan, const Bits& mask, const EmbedOptions& options,
+Points embed_spectral(const Cover& cover, const PatchPlan& plan, const Bits& mask, const EmbedOptions& options,
                       const std::function<Points(const Points&)>& round, EmbedReport& result, const Progress& progress)
 {
-    const Cover cover(surface);
+    const Surface& surface = cover.surface;
     const EdgeGraph graph = edge_graph(surface);
     const Points normals = vertex_normals(surface);
     const Aim aim{result.strength, plan.as_printed ? 1 : 1.1, least_energy(surface)};

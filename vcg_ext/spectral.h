@@ -1,5 +1,6 @@
 #pragma once
 #include "carrier/patches.h"
+#include "placement/cover.h"
 #include "placement/patch_shape.h"
 #include "watermark.h"
 
@@ -45,10 +46,10 @@ struct PatchReading {
 /// The closed loop: round as stored, align and read as the detector will, reshape the patches that lack margin. Returns
 /// the best round's positions, judged by its worst patch.
 ///
-/// \param surface welded   \param mask XOR-ed into the message's bits, which are those of `result`
+/// \param cover welded   \param mask XOR-ed into the message's bits, which are those of `result`
 /// \param round what storing does to positions
 /// \throw Error where patches are too small or too few
-[[nodiscard]] Points embed_spectral(const Surface& surface, const PatchPlan& plan, const Bits& mask,
+[[nodiscard]] Points embed_spectral(const Cover& cover, const PatchPlan& plan, const Bits& mask,
                                     const EmbedOptions& options, const std::function<Points(const Points&)>& round,
                                     EmbedReport& result, const Progress& progress);
 

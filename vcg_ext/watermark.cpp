@@ -270,11 +270,10 @@ Marked mark(const Surface& surface, const Welded& welded, const Key& key, const 
     const Secrets secrets = draw_secrets(key, options);
     result.trim = secrets.trim;
     const Cover cover(welded.surface);
-    const Points placed =
-        options.method == Method::Spectral
-            ? embed_spectral(welded.surface, {secrets.carrier_of_bit, secrets.trim, options.as_printed}, secrets.mask,
-                             options, rounded_to_float, result, progress)
-            : place_scalar(cover, key, secrets, options, result, progress);
+    const Points placed = options.method == Method::Spectral
+                              ? embed_spectral(cover, {secrets.carrier_of_bit, secrets.trim, options.as_printed},
+                                               secrets.mask, options, rounded_to_float, result, progress)
+                              : place_scalar(cover, key, secrets, options, result, progress);
     result.seconds["placement"] = watch.lap();
 
     report(progress, 85, "Checking blind");
