@@ -33,7 +33,7 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
 {
     MeshModel& layer = current_layer_or_error(document);
     vcg_ext::DetectOptions options;
-    read_carrier_parameters(values, options);
+    options.carriers = read_carrier_options(values);
     const std::string expected = values.getString("Expected").toStdString();
     if (!expected.empty())
         options.expected = vcg_ext::parse_message(expected);

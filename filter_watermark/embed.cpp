@@ -40,19 +40,35 @@ RichParameterList parameters(const MeshDocument&)
     return list;
 }
 
+/// embed(); where the mesh cannot carry so many bits, the error says how many it can.
+vcg_ext::EmbedReport embed_or_advise(vcg_ext::Surface& surface, const vcg_ext::Key& key,
+                                     const vcg_ext::EmbedOptions& options, const vcg_ext::Progress& progress)
+{
+    try {
+        return embed(surface, key, options, progress);
+    } catch (const vcg_ext::DoesNotFit& cause) {
+        const int fits = carriers_that_fit(surface, key, options, cause, progress);
+        const std::string advice =
+            fits > 0 ? " This mesh carries " + std::to_string(fits) +
+                           " bits with this method and key: set Bits to that, shorten the message, or use a finer mesh."
+                     : std::string(" Fewer bits did not fit either: use another method, or a finer mesh.");
+        throw vcg_ext::Error(cause.what() + advice);
+    }
+}
+
 Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext::Progress& progress)
 {
     MeshModel& layer = current_layer_or_error(document);
     vcg_ext::EmbedOptions options;
-    read_carrier_parameters(values, options);
+    options.carriers = read_carrier_options(values);
     options.message = vcg_ext::parse_message(values.getString("Message").toStdString());
-    options.strength = read_number(values, "Strength");
-    options.storage = sizeof(Scalarm) == sizeof(float) ? vcg_ext::Storage::Float : vcg_ext::Storage::Double;
+    options.placement.strength = read_number(values, "Strength");
+    options.placement.storage = sizeof(Scalarm) == sizeof(float) ? vcg_ext::Storage::Float : vcg_ext::Storage::Double;
     const vcg_ext::Key key = read_key(values);
     ReportFile file(values.getSaveFileName("Report"));
 
     vcg_ext::Surface surface = read_surface(layer.cm);
-    const Json report = to_json(embed(surface, key, options, progress));
+    const Json report = to_json(embed_or_advise(surface, key, options, progress));
     file.write(report);
     write_positions(layer, surface.points);
     return report;

@@ -2,12 +2,21 @@
 
 #include "shared_parameters.h"
 
+#include <vcg_ext/method/methods.h>
+
 using vcg_ext::Method;
 using vcg_ext::Statistic;
 
 namespace {
 
-const std::vector<Method> methods = {Method::LM, Method::QSP, Method::Cho, Method::Geodesic, Method::Spectral};
+std::vector<Method> methods()
+{
+    std::vector<Method> list;
+    for (const vcg_ext::MethodRow& row : vcg_ext::all_methods())
+        list.push_back(row.method);
+    return list;
+}
+
 const std::vector<Statistic> statistics = {Statistic::Mean, Statistic::Variance};
 
 } // namespace
@@ -32,7 +41,7 @@ std::uint64_t read_seed(const RichParameterList& values)
 void add_carrier_parameters(RichParameterList& list, const QString& bits_tip)
 {
     list.addParam(
-        RichEnum("Method", 0, choice_names(methods), "Method",
+        RichEnum("Method", 0, choice_names(methods()), "Method",
                  "L-M: vertex norms, the least visible; QSP and Cho: vertex norms, faster and more visible; Geodesic: "
                  "distances along the surface; Spectral: survives smoothing. Detection needs the same one."));
     list.addParam(
@@ -50,12 +59,14 @@ void add_carrier_parameters(RichParameterList& list, const QString& bits_tip)
         "needs the same."));
 }
 
-void read_carrier_parameters(const RichParameterList& values, vcg_ext::CarrierOptions& options)
+vcg_ext::CarrierOptions read_carrier_options(const RichParameterList& values)
 {
-    options.method = read_choice(values, "Method", methods);
+    vcg_ext::CarrierOptions options;
+    options.method = read_choice(values, "Method", methods());
     options.statistic = read_choice(values, "Statistic", statistics);
     options.bits = values.getInt("Bits");
     options.trim = read_number(values, "Trim");
+    return options;
 }
 
 vcg_ext::Key read_key(const RichParameterList& values)

@@ -27,7 +27,7 @@ std::uint64_t read_seed(const RichParameterList& values);
 
 /// What Embed and Detect have in common: Method, Statistic, Key, Bits, Trim.
 void add_carrier_parameters(RichParameterList& list, const QString& bits_tip);
-void read_carrier_parameters(const RichParameterList& values, vcg_ext::CarrierOptions& options);
+vcg_ext::CarrierOptions read_carrier_options(const RichParameterList& values);
 
 /// \throw vcg_ext::Error where it is empty, or names no file or variable
 vcg_ext::Key read_key(const RichParameterList& values);

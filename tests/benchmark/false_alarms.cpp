@@ -9,6 +9,7 @@
 #include "support/load.h"
 #include "vcg_ext/base/error.h"
 #include "vcg_ext/carrier/statistic.h"
+#include "vcg_ext/method/methods.h"
 #include "vcg_ext/payload/binomial.h"
 #include "vcg_ext/watermark/watermark.h"
 
@@ -68,10 +69,10 @@ int main(int count, char** arguments)
         std::printf("   p<=%-5g expected sigma", level);
     std::printf("   present\n");
     for (const bool marked : {false, true})
-        for (const Method method : {Method::LM, Method::QSP, Method::Cho, Method::Geodesic, Method::Spectral})
+        for (const MethodRow& row : all_methods())
             for (const Statistic statistic : {Statistic::Mean, Statistic::Variance}) {
-                const bool spectral = method == Method::Spectral;
-                if (spectral && statistic == Statistic::Variance)
+                const Method method = row.method;
+                if (!row.has_statistic && statistic == Statistic::Variance)
                     continue;
                 Tally tally;
                 for (std::size_t mesh = 0; mesh < names.size(); ++mesh) {
@@ -80,8 +81,8 @@ int main(int count, char** arguments)
                         surface = load(names[mesh]);
                         if (marked) {
                             EmbedOptions options;
-                            options.method = method;
-                            options.statistic = statistic;
+                            options.carriers.method = method;
+                            options.carriers.statistic = statistic;
                             options.message = message;
                             embed(surface, owner, options);
                         }
@@ -90,8 +91,8 @@ int main(int count, char** arguments)
                     }
                     for (std::size_t k = mesh; k < keys.size(); k += names.size()) {
                         DetectOptions options;
-                        options.method = method;
-                        options.statistic = statistic;
+                        options.carriers.method = method;
+                        options.carriers.statistic = statistic;
                         options.expected = message;
                         try {
                             const DetectReport found = detect(surface, keys[k], options);

@@ -6,6 +6,7 @@
 #include "support/load.h"
 #include "vcg_ext/base/error.h"
 #include "vcg_ext/carrier/strips.h"
+#include "vcg_ext/key/key.h"
 
 #include <cstdio>
 #include <cstring>
@@ -20,7 +21,7 @@ try {
     const VertexFaces around = vertex_faces(static_cast<int>(surface.points.size()), surface.triangles);
     SurfacePoint source;
     if (std::strcmp(arguments[2], "key") == 0) {
-        source = keyed_source(surface, Key(arguments[3]));
+        source = strip_frame(surface, source_directions(Key(arguments[3]).stream("direction"))).source;
     } else {
         const int vertex = std::stoi(arguments[3]);
         source = {*around.begin(vertex), surface.points.at(vertex)};

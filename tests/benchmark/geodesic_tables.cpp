@@ -44,10 +44,10 @@ const char* pro(Statistic statistic)
 EmbedOptions options_for(Method method, Statistic statistic, int bits, int key)
 {
     EmbedOptions options;
-    options.method = method;
-    options.statistic = statistic;
-    options.bits = bits;
-    options.trim = 0.1;
+    options.carriers.method = method;
+    options.carriers.statistic = statistic;
+    options.carriers.bits = bits;
+    options.carriers.trim = 0.1;
     Stream draws = key_number(key).stream("message");
     for (int i = 0; i < bits; ++i)
         options.message.push_back(static_cast<std::uint8_t>(draws.below(2)));
@@ -57,7 +57,7 @@ EmbedOptions options_for(Method method, Statistic statistic, int bits, int key)
 DetectReport read(const Surface& surface, const EmbedOptions& embedded, int key)
 {
     DetectOptions options;
-    static_cast<CarrierOptions&>(options) = embedded;
+    options.carriers = embedded.carriers;
     options.expected = embedded.message;
     return detect(surface, key_number(key), options);
 }
@@ -94,7 +94,7 @@ void bits_and_moves()
                     std::string refused;
                     for (int key = 0; key < keys; ++key) {
                         EmbedOptions options = options_for(Method::Geodesic, statistic, bits, key);
-                        options.front_scheme = scheme;
+                        options.placement.front_scheme = scheme;
                         Surface stego = cover;
                         try {
                             const EmbedReport report = embed(stego, key_number(key), options);
@@ -151,7 +151,7 @@ void distortion()
                 add("L-M", options_for(Method::LM, statistic, 64, key), key);
                 for (const FrontScheme scheme : schemes) {
                     EmbedOptions options = options_for(Method::Geodesic, statistic, 64, key);
-                    options.front_scheme = scheme;
+                    options.placement.front_scheme = scheme;
                     add(text(scheme), options, key);
                 }
             }
@@ -222,10 +222,11 @@ void attacks()
                         const Welded after = weld(attacked);
                         const VertexFaces around =
                             vertex_faces(static_cast<int>(before.surface.points.size()), before.surface.triangles);
-                        const SurfacePoint source = keyed_source(before.surface, key_number(key));
-                        const Strips strips = strips_from(source, before.surface, around, 0.1, 64);
+                        const Points directions = source_directions(key_number(key).stream("direction"));
+                        const StripFrame frame = strip_frame(before.surface, directions);
+                        const Strips strips = strips_from(frame, before.surface, around, 0.1, 64);
                         shifts.push_back(
-                            (keyed_source(after.surface, key_number(key)).position - source.position).norm() /
+                            (strip_frame(after.surface, directions).source.position - frame.source.position).norm() /
                             strips.carriers.width);
                     }
                     std::printf(" %.3f", done > 0 ? ratio / done : std::nan(""));

@@ -10,6 +10,7 @@
 #include "support/load.h"
 #include "vcg_ext/base/error.h"
 #include "vcg_ext/carrier/statistic.h"
+#include "vcg_ext/method/methods.h"
 #include "vcg_ext/watermark/watermark.h"
 
 #include <algorithm>
@@ -44,15 +45,17 @@ struct Job {
     Statistic statistic;
 };
 
-constexpr std::array<Job, 9> jobs = {{{Method::LM, Statistic::Mean},
-                                      {Method::LM, Statistic::Variance},
-                                      {Method::QSP, Statistic::Mean},
-                                      {Method::QSP, Statistic::Variance},
-                                      {Method::Cho, Statistic::Mean},
-                                      {Method::Cho, Statistic::Variance},
-                                      {Method::Geodesic, Statistic::Mean},
-                                      {Method::Geodesic, Statistic::Variance},
-                                      {Method::Spectral, Statistic::Mean}}};
+/// Every method with each of its statistics.
+std::vector<Job> all_jobs()
+{
+    std::vector<Job> jobs;
+    for (const MethodRow& row : all_methods()) {
+        jobs.push_back({row.method, Statistic::Mean});
+        if (row.has_statistic)
+            jobs.push_back({row.method, Statistic::Variance});
+    }
+    return jobs;
+}
 
 std::vector<std::string> all_meshes()
 {
@@ -81,16 +84,16 @@ std::pair<Outcome, std::string> try_to_mark(const Surface& cover, const Key& key
     try {
         const EmbedReport report = embed(stego, key, options);
         DetectOptions reading;
-        static_cast<CarrierOptions&>(reading) = options;
+        reading.carriers = options.carriers;
         reading.expected = report.bits;
         if (!std::all_of(stego.points.begin(), stego.points.end(), [](const Point& p) { return p.allFinite(); }))
             return {wrong, "coordinates that are not finite"};
         if (detect(stego, key, reading).bits != report.bits)
             return {wrong, "other bits were read"};
         return {marked, ""};
-    } catch (const TooManyBits& error) {
+    } catch (const DoesNotFit& error) {
         if (carries)
-            *carries = error.carries;
+            *carries = carriers_that_fit(cover, key, options, error);
         return {same(stego.points, cover.points) ? refused : wrong, error.what()};
     } catch (const Error& error) {
         return {same(stego.points, cover.points) ? refused : wrong, error.what()};
@@ -102,11 +105,11 @@ std::pair<Outcome, std::string> try_to_mark(const Surface& cover, const Key& key
 std::pair<Outcome, std::string> run(const Surface& cover, const Key& key, const Job& job)
 {
     EmbedOptions options;
-    options.method = job.method;
-    options.statistic = job.statistic;
+    options.carriers.method = job.method;
+    options.carriers.statistic = job.statistic;
     options.message = parse_message("hex:0123456789abcdef");
     DetectOptions reading;
-    static_cast<CarrierOptions&>(reading) = options;
+    reading.carriers = options.carriers;
     reading.expected = options.message;
     try {
         if (*detect(cover, key, reading).present)
@@ -117,7 +120,7 @@ std::pair<Outcome, std::string> run(const Surface& cover, const Key& key, const 
     int carries = 0;
     auto result = try_to_mark(cover, key, options, &carries);
     if (result.first == refused && carries > 0) {
-        options.bits = carries;
+        options.carriers.bits = carries;
         options.message.resize(carries);
         const auto [outcome, text] = try_to_mark(cover, key, options);
         if (outcome != marked)
@@ -182,7 +185,8 @@ int main(int count, char** arguments)
 
     const Key key("mesh_sweep");
     [[maybe_unused]] const auto derived = key.stream("before any fork: a child has no threads to wait for").next();
-    std::array<std::array<int, outcomes>, jobs.size()> counts{};
+    const std::vector<Job> jobs = all_jobs();
+    std::vector<std::array<int, outcomes>> counts(jobs.size());
     std::map<std::string, int> reasons;
     const std::vector<std::string> names = all_meshes();
     int meshes = 0;

@@ -18,9 +18,9 @@ constexpr std::array<Statistic, 2> both = {Statistic::Mean, Statistic::Variance}
 EmbedReport mark(const Surface& cover, const Key& key, Statistic statistic, EmbedOptions options)
 {
     Surface stego = cover;
-    options.statistic = statistic;
+    options.carriers.statistic = statistic;
     options.message = parse_message("hex:0123456789abcdef");
-    options.trim = 0.1;
+    options.carriers.trim = 0.1;
     return embed(stego, key, options);
 }
 
@@ -35,7 +35,7 @@ void print_methods(const std::vector<Surface>& covers, const Key& key)
             double cho = 0;
             for (const Method method : {Method::Cho, Method::QSP, Method::LM}) {
                 EmbedOptions options;
-                options.method = method;
+                options.carriers.method = method;
                 const EmbedReport r = mark(covers[m], key, statistic, options);
                 cho = method == Method::Cho ? r.mrms : cho;
                 const double diagonal = r.mrms / r.mrms_relative;
@@ -69,7 +69,7 @@ void print_weights(const std::vector<Surface>& covers, const Key& key)
         for (const Surface& cover : covers)
             for (const Statistic statistic : both) {
                 EmbedOptions options;
-                options.sphere_weights = k;
+                options.placement.sphere.weights = k;
                 std::printf(" %.2e |", mark(cover, key, statistic, options).mrms_relative);
             }
         std::printf("\n");
@@ -84,7 +84,7 @@ void print_sweeps(const std::vector<Surface>& covers, const Key& key)
             std::printf("| %s %s |", meshes[m], name(statistic));
             for (const int sweeps : {1, 2, 3, 6, 10}) {
                 EmbedOptions options;
-                options.sphere_sweeps = sweeps;
+                options.placement.sphere.sweeps = sweeps;
                 std::printf(" %.3e |", mark(covers[m], key, statistic, options).mrms_relative);
             }
             std::printf("\n");

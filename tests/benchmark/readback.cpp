@@ -25,9 +25,9 @@ int main()
                     int whole = 0, refused = 0, lost = 0, rounds = 0, weak = 0;
                     for (const Key& key : keys) {
                         EmbedOptions options;
-                        options.method = method;
-                        options.statistic = statistic;
-                        options.bits = bits;
+                        options.carriers.method = method;
+                        options.carriers.statistic = statistic;
+                        options.carriers.bits = bits;
                         options.message = parse_message("hex:0123456789abcdef");
                         options.message.resize(bits, 1);
                         Surface stego = cover;
@@ -36,7 +36,7 @@ int main()
                             rounds += report.rounds;
                             weak += !report.warnings.empty();
                             DetectOptions read;
-                            static_cast<CarrierOptions&>(read) = options;
+                            read.carriers = options.carriers;
                             (detect(stego, key, read).bits == report.bits ? whole : lost) += 1;
                         } catch (const Error& error) {
                             reasons.insert(error.what());

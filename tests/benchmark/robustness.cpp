@@ -61,11 +61,11 @@ std::vector<std::array<double, methods.size()>> ratios(const Surface& cover, Sta
     std::vector<std::array<double, methods.size()>> result(rows().size());
     for (std::size_t m = 0; m < methods.size(); ++m) {
         EmbedOptions embedding;
-        embedding.method = methods[m];
-        embedding.statistic = statistic;
-        embedding.bits = carriers;
+        embedding.carriers.method = methods[m];
+        embedding.carriers.statistic = statistic;
+        embedding.carriers.bits = carriers;
         embedding.message = message;
-        embedding.trim = 0.1;
+        embedding.carriers.trim = 0.1;
         Surface stego = cover;
         embed(stego, key, embedding);
         for (std::size_t r = 0; r < rows().size(); ++r) {
@@ -74,7 +74,7 @@ std::vector<std::array<double, methods.size()>> ratios(const Surface& cover, Sta
             attack.seed = number;
             apply_attack(attacked, attack);
             DetectOptions detection;
-            static_cast<CarrierOptions&>(detection) = embedding;
+            detection.carriers = embedding.carriers;
             result[r][m] = static_cast<double>(matching_bits(message, detect(attacked, key, detection).bits)) /
                            static_cast<double>(message.size());
         }

@@ -29,18 +29,18 @@ Key key_number(int k)
 EmbedOptions options_of(Method method, Statistic statistic, double strength)
 {
     EmbedOptions options;
-    options.method = method;
-    options.statistic = statistic;
+    options.carriers.method = method;
+    options.carriers.statistic = statistic;
     options.message = parse_message("hex:0123456789abcdef");
-    options.strength = strength;
-    options.trim = 0.1; // as in the thesis' tables
+    options.placement.strength = strength;
+    options.carriers.trim = 0.1; // as in the thesis' tables
     return options;
 }
 
 double ratio_after(const Surface& surface, const Key& key, const EmbedOptions& embedded)
 {
     DetectOptions options;
-    static_cast<CarrierOptions&>(options) = embedded;
+    options.carriers = embedded.carriers;
     options.expected = embedded.message;
     return *detect(surface, key, options).detection_ratio;
 }
@@ -73,11 +73,11 @@ void readback(int keys)
         for (int k = 0; k < keys; ++k) {
             const Key key = key_number(k);
             EmbedOptions options = options_of(Method::Spectral, Statistic::Mean, 0);
-            options.trim = -1;
+            options.carriers.trim = -1;
             Surface marked = cover;
             const EmbedReport report = embed(marked, key, options);
             DetectOptions blind;
-            static_cast<CarrierOptions&>(blind) = options;
+            blind.carriers = options.carriers;
             read += detect(marked, key, blind).bits == report.bits;
             turned += faces_turned(cover, marked);
             rounds = std::max(rounds, report.rounds);
@@ -101,7 +101,7 @@ void distortion(int keys)
             EmbedOptions ways[4] = {
                 options_of(Method::Spectral, Statistic::Mean, 15), options_of(Method::Spectral, Statistic::Mean, 8),
                 options_of(Method::Spectral, Statistic::Mean, 15), options_of(Method::Cho, Statistic::Mean, 0.05)};
-            ways[2].as_printed = true;
+            ways[2].carriers.as_printed = true;
             for (int i = 0; i < 4; ++i) {
                 if (i == 2 && k > 0)
                     continue; // exact eigenbases take long
@@ -160,8 +160,8 @@ void attacks(int keys)
                     sum[c] += ratio_after(
                         attacked(marked, columns[c].attack, columns[c].amount, columns[c].iterations, k), key, options);
             }
-            std::printf("%s %s%s", mesh, name(options.method),
-                        options.method == Method::Spectral ? "" : name(options.statistic));
+            std::printf("%s %s%s", mesh, name(options.carriers.method),
+                        options.carriers.method == Method::Spectral ? "" : name(options.carriers.statistic));
             for (const double s : sum)
                 std::printf(" %.2f", s / keys);
             std::printf("\n");

@@ -11,6 +11,7 @@
 #include "vcg_ext/carrier/statistic.h"
 #include "vcg_ext/key/random.h"
 #include "vcg_ext/key/stream.h"
+#include "vcg_ext/method/methods.h"
 #include "vcg_ext/metric/distortion.h"
 #include "vcg_ext/watermark/watermark.h"
 
@@ -141,24 +142,24 @@ void demand(bool holds, const char* what)
 void embed_and_detect(const Surface& before, const Key& key, Stream& draws)
 {
     EmbedOptions options;
-    options.method = static_cast<Method>(pick(draws, 5));
-    options.statistic = static_cast<Statistic>(pick(draws, 2));
+    options.carriers.method = all_methods()[pick(draws, all_methods().size())].method;
+    options.carriers.statistic = static_cast<Statistic>(pick(draws, 2));
     constexpr int counts[] = {1, 2, 8, 16, 64, 1024, 0, -1};
-    options.bits = counts[pick(draws, std::size(counts))];
+    options.carriers.bits = counts[pick(draws, std::size(counts))];
     constexpr double trims[] = {-1, -1, 0, 0.1, 0.45, 0.5, -2, std::numeric_limits<double>::quiet_NaN()};
-    options.trim = trims[pick(draws, std::size(trims))];
+    options.carriers.trim = trims[pick(draws, std::size(trims))];
     constexpr double strengths[] = {0, 0, 0.1, 0.3, 10, -1, 1e300, std::numeric_limits<double>::infinity()};
-    options.strength = strengths[pick(draws, std::size(strengths))];
-    options.storage = static_cast<Storage>(pick(draws, 2));
-    options.max_rounds = 3;
+    options.placement.strength = strengths[pick(draws, std::size(strengths))];
+    options.placement.storage = static_cast<Storage>(pick(draws, 2));
+    options.placement.max_rounds = 3;
     options.message = {1, 0, 1, 1, 0, 0, 1, 0};
     DetectOptions reading;
-    static_cast<CarrierOptions&>(reading) = options;
+    reading.carriers = options.carriers;
     reading.expected = options.message;
     Surface after = before;
     try {
         const EmbedReport report = embed(after, key, options);
-        reading.bits = report.carriers;
+        reading.carriers.bits = report.carriers;
         demand(detect(after, key, reading).detection_ratio == 1.0, "marked, but not read back");
     } catch (const Error&) {
         demand(same(before, after), "an error changed the mesh");

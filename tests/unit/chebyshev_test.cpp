@@ -122,12 +122,12 @@ TEST(Chebyshev, MarkedPatchesHaveTheShapesOfTheExactProjector)
     const Key key("exact");
     Surface marked = exact().surface;
     EmbedOptions options;
-    options.method = Method::Spectral;
-    options.bits = 16;
+    options.carriers.method = Method::Spectral;
+    options.carriers.bits = 16;
     options.message = parse_message("hex:C0DE");
     (void)embed(marked, key, options);
 
-    const PatchReading read = read_patches(marked, patch_plan(key, options.bits, options.trim, false));
+    const PatchReading read = read_patches(marked, plan_spectral(key, options.carriers), principal_frame(marked));
     const Points projected =
         exact().filtered(centred(marked), [](double lambda) { return lambda > cutoff ? 1.0 : 0.0; });
     std::vector<double> errors;

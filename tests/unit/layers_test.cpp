@@ -16,7 +16,7 @@ protected:
     EmbedOptions options_for(const char* message) const
     {
         EmbedOptions options;
-        options.method = GetParam();
+        options.carriers.method = GetParam();
         options.message = parse_message(message);
         return options;
     }
@@ -25,7 +25,7 @@ protected:
 double ratio(const Surface& surface, const Key& key, const EmbedOptions& embedded)
 {
     DetectOptions options;
-    static_cast<CarrierOptions&>(options) = embedded;
+    options.carriers = embedded.carriers;
     options.expected = embedded.message;
     return *detect(surface, key, options).detection_ratio;
 }

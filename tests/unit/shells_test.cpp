@@ -32,30 +32,34 @@ TEST(Shells, TurnAndScaleWithTheMesh)
     Points moved = bunny.points;
     for (Point& p : moved)
         p = 3.7 * (turn * p) + Point(10, -20, 30);
-    const Shells here = shells(bunny.points, bunny.triangles, 0.1, 64);
-    const Shells there = shells(moved, bunny.triangles, 0.1, 64);
+    const ShellFrame here = shell_frame(bunny.points, bunny.triangles);
+    const ShellFrame there = shell_frame(moved, bunny.triangles);
+    const Carriers before = shells(bunny.points, here, 0.1, 64);
+    const Carriers after = shells(moved, there, 0.1, 64);
     EXPECT_LT((3.7 * (turn * here.centre) + Point(10, -20, 30) - there.centre).norm(), 1e-12);
-    EXPECT_NEAR(there.carriers.width, 3.7 * here.carriers.width, 1e-12);
-    EXPECT_EQ(here.carriers.label, there.carriers.label);
+    EXPECT_NEAR(after.width, 3.7 * before.width, 1e-12);
+    EXPECT_EQ(before.label, after.label);
 }
 
 TEST(Shells, DoNotDependOnTheNumberOfThreads)
 {
     const Surface bunny = load("bunny00.off");
     set_threads(1);
-    const Shells alone = shells(bunny.points, bunny.triangles, 0.1, 64);
+    const ShellFrame alone = shell_frame(bunny.points, bunny.triangles);
+    const Carriers carriers_alone = shells(bunny.points, alone, 0.1, 64);
     set_threads(3);
-    const Shells together = shells(bunny.points, bunny.triangles, 0.1, 64);
+    const ShellFrame together = shell_frame(bunny.points, bunny.triangles);
+    const Carriers carriers_together = shells(bunny.points, together, 0.1, 64);
     set_threads(0);
     EXPECT_EQ(alone.centre, together.centre);
-    EXPECT_EQ(alone.carriers.value, together.carriers.value);
+    EXPECT_EQ(carriers_alone.value, carriers_together.value);
 }
 
 TEST(Shells, RefuseASphereAndAFlatNothing)
 {
     const Surface octahedron = load("octahedron.off");
-    EXPECT_THROW((void)shells(octahedron.points, octahedron.triangles, 0.1, 8), Error);
-    EXPECT_THROW((void)shells({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}, 0.1, 8), Error);
+    EXPECT_THROW((void)shell_frame(octahedron.points, octahedron.triangles), Error);
+    EXPECT_THROW((void)shell_frame({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}), Error);
 }
 
 } // namespace

@@ -1,10 +1,8 @@
-#include "vcg_ext/base/error.h"
-#include "vcg_ext/method/spectral.h"
-
 #include "support/load.h"
 #include "vcg_ext/attack/attack.h"
 #include "vcg_ext/base/parallel.h"
 #include "vcg_ext/payload/binomial.h"
+#include "vcg_ext/watermark/watermark.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +15,8 @@ using namespace vcg_ext;
 EmbedOptions spectral(int bits)
 {
     EmbedOptions options;
-    options.method = Method::Spectral;
-    options.bits = bits;
+    options.carriers.method = Method::Spectral;
+    options.carriers.bits = bits;
     options.message = Bits(bits, 0);
     for (int i = 0; i < bits; ++i)
         options.message[i] = static_cast<std::uint8_t>(i * i / 3 % 2);
@@ -28,7 +26,7 @@ EmbedOptions spectral(int bits)
 DetectOptions reading_of(const EmbedOptions& embedded)
 {
     DetectOptions options;
-    static_cast<CarrierOptions&>(options) = embedded;
+    options.carriers = embedded.carriers;
     return options;
 }
 
@@ -151,7 +149,7 @@ TEST(Spectral, TheChanceOfAWrongKeyIsFourTails)
 TEST(Spectral, AsPrintedIsReadBack)
 {
     EmbedOptions options = spectral(16);
-    options.as_printed = true;
+    options.carriers.as_printed = true;
     Surface marked = load("fandisk.off");
     const Key key("printed");
     EXPECT_EQ(embed(marked, key, options).detection_ratio, 1);
@@ -164,7 +162,7 @@ TEST(Spectral, RefusesWhatItCannotDo)
     const Points before = small.points;
     EXPECT_THROW((void)embed(small, Key("k"), spectral(256)), Error); // patches of a few vertices
     EmbedOptions weak = spectral(16);
-    weak.strength = 1;
+    weak.placement.strength = 1;
     EXPECT_THROW((void)embed(small, Key("k"), weak), Error);
     EXPECT_EQ(small.points, before);
 }

@@ -44,6 +44,19 @@ double energy_at(const Eigen::Matrix3d& energy, const Point& move)
 }
 
 /// The norms that ChoMean at alpha 0.1 with alternating bits asks of each vertex; its own outside the shells.
+/// Shells with all that they were cut from.
+struct Shells {
+    explicit Shells(const Surface& s)
+        : frame(shell_frame(s.points, s.triangles)), norms(vcg_ext::norms(s.points, frame.centre)),
+          carriers(shells(s.points, frame, 0.1, 64))
+    {
+    }
+
+    ShellFrame frame;
+    std::vector<double> norms;
+    Carriers carriers;
+};
+
 std::vector<double> targets(const Shells& found)
 {
     std::vector<double> result = found.norms;
@@ -68,7 +81,7 @@ TEST_P(OnRealMeshes, ReachTheMinimumOfTheSecularEquation)
 {
     const Surface surface = load(GetParam());
     const Cover cover(surface);
-    const Shells found = shells(surface.points, surface.triangles, 0.1, 64);
+    const Shells found(surface);
     const std::vector<double> norm = targets(found);
     double worst = 0;
     int moved = 0;
@@ -78,14 +91,14 @@ TEST_P(OnRealMeshes, ReachTheMinimumOfTheSecularEquation)
             continue;
         const Point& here = surface.points[v];
         const Eigen::Matrix3d energy = sphere_energy(cover, surface.points, v, thesis_weights);
-        const SphereSolution solution = place_on_sphere(here, found.centre, norm[v], energy);
-        const double cho = energy_at(energy, radial_point(here, found.centre, norm[v]) - here);
+        const SphereSolution solution = place_on_sphere(here, found.frame.centre, norm[v], energy);
+        const double cho = energy_at(energy, radial_point(here, found.frame.centre, norm[v]) - here);
         const double gap =
-            energy_at(energy, solution.point - here) - least_energy(here - found.centre, norm[v], energy);
+            energy_at(energy, solution.point - here) - least_energy(here - found.frame.centre, norm[v], energy);
         worst = std::max(worst, gap / cho);
         unconverged += !solution.converged;
         ++moved;
-        ASSERT_NEAR((solution.point - found.centre).norm(), norm[v], 1e-12 * norm[v]);
+        ASSERT_NEAR((solution.point - found.frame.centre).norm(), norm[v], 1e-12 * norm[v]);
     }
     EXPECT_GT(moved, 4000);
     EXPECT_EQ(unconverged, 0);
@@ -100,13 +113,14 @@ TEST(PlaceOnSphere, WithTheThirdWeightAloneIsCho)
 {
     const Surface surface = load("fandisk.off");
     const Cover cover(surface);
-    const Shells found = shells(surface.points, surface.triangles, 0.1, 64);
+    const Shells found(surface);
     const std::vector<double> norm = targets(found);
     for (int v = 0; v < static_cast<int>(norm.size()); ++v) {
         const Eigen::Matrix3d energy = sphere_energy(cover, surface.points, v, {0, 0, 1});
         ASSERT_TRUE(energy.isApprox(Eigen::Matrix3d::Identity(), 1e-15));
-        const Point placed = place_on_sphere(surface.points[v], found.centre, norm[v], energy).point;
-        ASSERT_LT((placed - radial_point(surface.points[v], found.centre, norm[v])).norm(), 1e-12 * found.maximum);
+        const Point placed = place_on_sphere(surface.points[v], found.frame.centre, norm[v], energy).point;
+        ASSERT_LT((placed - radial_point(surface.points[v], found.frame.centre, norm[v])).norm(),
+                  1e-12 * found.frame.maximum);
     }
 }
 
@@ -115,7 +129,7 @@ TEST(PlaceOnSphere, ConvergesInAFewIterations)
 {
     const Surface surface = load("bunny00.off");
     const Cover cover(surface);
-    const Shells found = shells(surface.points, surface.triangles, 0.1, 64);
+    const Shells found(surface);
     const std::vector<double> norm = targets(found);
     double total = 0;
     int moved = 0;
@@ -123,7 +137,7 @@ TEST(PlaceOnSphere, ConvergesInAFewIterations)
     for (int v = 0; v < static_cast<int>(norm.size()); ++v)
         if (norm[v] != found.norms[v]) {
             const Eigen::Matrix3d energy = sphere_energy(cover, surface.points, v, thesis_weights);
-            const int iterations = place_on_sphere(surface.points[v], found.centre, norm[v], energy).iterations;
+            const int iterations = place_on_sphere(surface.points[v], found.frame.centre, norm[v], energy).iterations;
             total += iterations;
             beyond_ten += iterations > 10;
             ++moved;

@@ -27,8 +27,8 @@ const Key& test_key()
 EmbedOptions options_for(Method method, Statistic statistic)
 {
     EmbedOptions options;
-    options.method = method;
-    options.statistic = statistic;
+    options.carriers.method = method;
+    options.carriers.statistic = statistic;
     options.message = parse_message("museum");
     return options;
 }
@@ -36,7 +36,7 @@ EmbedOptions options_for(Method method, Statistic statistic)
 DetectReport read(const Surface& surface, const EmbedOptions& embedded, const Key& key = test_key())
 {
     DetectOptions options;
-    static_cast<CarrierOptions&>(options) = embedded;
+    options.carriers = embedded.carriers;
     options.expected = embedded.message;
     return detect(surface, key, options);
 }
@@ -64,7 +64,7 @@ TEST_P(EveryMethod, ReadsItsMessageBack)
         EXPECT_EQ(found.bits, report.bits);
         EXPECT_EQ(format_message(found.bits), "museum");
         EXPECT_EQ(*found.detection_ratio, 1);
-        const double orientations = options.method == Method::Spectral ? 4 : 1;
+        const double orientations = options.carriers.method == Method::Spectral ? 4 : 1;
         EXPECT_NEAR(*found.p_value, orientations * std::ldexp(1.0, -64), std::ldexp(1.0, -100));
         EXPECT_TRUE(*found.present);
         for (int i = 0; i < 64; ++i)
@@ -155,7 +155,7 @@ TEST_P(EveryMethod, MovesNothingButFloatsInFloatStorage)
 TEST_P(EveryMethod, InDoubleStorageSurvivesFloatFiles)
 {
     Surface stego = load("fandisk.off");
-    options.storage = Storage::Double;
+    options.placement.storage = Storage::Double;
     embed(stego, test_key(), options);
     EXPECT_EQ(*read(stego, options).detection_ratio, 1);
     for (Point& p : stego.points)
@@ -230,13 +230,13 @@ TEST(Embed, RefusesWithACauseAndLeavesTheMesh)
         change(options);
         return refusal(fandisk, options);
     };
-    EXPECT_NE(with([](auto& o) { o.bits = -1; }).find("between 1 and 1024"), std::string::npos);
-    EXPECT_NE(with([](auto& o) { o.bits = 1025; }).find("between 1 and 1024"), std::string::npos);
-    EXPECT_NE(with([](auto& o) { o.bits = 16; }).find("48 bits"), std::string::npos);
-    EXPECT_NE(with([](auto& o) { o.trim = 0.5; }).find("between 0 and 0.45"), std::string::npos);
-    EXPECT_NE(with([](auto& o) { o.strength = -0.1; }).find("Strength"), std::string::npos);
-    EXPECT_NE(with([](auto& o) { o.strength = 0.5; }).find("Strength"), std::string::npos);
-    EXPECT_NE(with([](auto& o) { o.strength = std::nan(""); }).find("Strength"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.carriers.bits = -1; }).find("between 1 and 1024"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.carriers.bits = 1025; }).find("between 1 and 1024"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.carriers.bits = 16; }).find("48 bits"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.carriers.trim = 0.5; }).find("between 0 and 0.45"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.placement.strength = -0.1; }).find("Strength"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.placement.strength = 0.5; }).find("Strength"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.placement.strength = std::nan(""); }).find("Strength"), std::string::npos);
 
     EXPECT_NE(refusal({}, good).find("no faces"), std::string::npos);
     EXPECT_NE(refusal({fandisk.points, {}}, good).find("no faces"), std::string::npos);
@@ -247,14 +247,12 @@ TEST(Embed, RefusesWithACauseAndLeavesTheMesh)
     broken.points[7].y() = std::numeric_limits<double>::infinity();
     EXPECT_NE(refusal(broken, good).find("finite"), std::string::npos);
     EXPECT_NE(refusal(load("octahedron.off"), good).find("equally far"), std::string::npos);
-    EXPECT_NE(refusal(load("cow.off"),
-                      [&] {
-                          EmbedOptions many = good;
-                          many.bits = 1024;
-                          return many;
-                      }())
-                  .find("carries"),
-              std::string::npos);
+    EmbedOptions many = good;
+    many.carriers.bits = 1024;
+    EXPECT_NE(refusal(load("cow.off"), many).find("carriers hold no vertex"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.placement.max_rounds = 0; }).find("round"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.placement.sphere.sweeps = 0; }).find("sweep"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.placement.sphere.weights = {0, 0, 0}; }).find("weights"), std::string::npos);
 
     Surface far = fandisk;
     for (Point& p : far.points)
@@ -300,9 +298,9 @@ TEST(Embed, WithBitsZeroTakesTheMessagesLength)
 {
     Surface surface = load("fandisk.off");
     EmbedOptions options = options_for(Method::LM, Statistic::Mean);
-    options.bits = 0;
+    options.carriers.bits = 0;
     EXPECT_EQ(embed(surface, test_key(), options).carriers, 48);
-    options.bits = 48;
+    options.carriers.bits = 48;
     EXPECT_EQ(format_message(read(surface, options).bits), "museum");
 }
 
@@ -313,22 +311,22 @@ TEST(Embed, NamesACapacityAtWhichNoCarrierIsEmpty)
     for (const Method method : {Method::Cho, Method::Geodesic})
         for (const char* mesh : {"fandisk.off", "bunny00.off"}) {
             EmbedOptions options = options_for(method, Statistic::Mean);
-            options.bits = 16;
+            options.carriers.bits = 16;
             options.message = parse_message("bits:1");
-            options.trim = 0.1;
+            options.carriers.trim = 0.1;
             const Surface cover = load(mesh);
             Surface stego = cover;
             const int capacity = embed(stego, test_key(), options).capacity;
-            EXPECT_GE(capacity, options.bits);
+            EXPECT_GE(capacity, options.carriers.bits);
             const auto poorest = [&](int bits) {
                 DetectOptions reading;
-                static_cast<CarrierOptions&>(reading) = options;
-                reading.bits = bits;
+                reading.carriers = options.carriers;
+                reading.carriers.bits = bits;
                 const std::vector<int> held = detect(cover, test_key(), reading).samples;
                 return *std::min_element(held.begin(), held.end());
             };
             EXPECT_GT(poorest(capacity), 0) << capacity;
-            if (capacity < most_bits) {
+            if (capacity < most_carriers) {
                 EXPECT_EQ(poorest(capacity + 1), 0) << capacity;
             }
         }
@@ -342,8 +340,8 @@ TEST(SphereWeights, KeepTheOrderOfTable52)
          {std::array<double, 3>{0.49, 0.49, 0.02}, {0.4, 0.4, 0.2}, {0.3, 0.3, 0.4}, {0.5, 0, 0.5}, {0, 0, 1}}) {
         Surface stego = cover;
         EmbedOptions options = options_for(Method::LM, Statistic::Mean);
-        options.trim = 0.1;
-        options.sphere_weights = weights;
+        options.carriers.trim = 0.1;
+        options.placement.sphere.weights = weights;
         const double mrms = embed(stego, test_key(), options).mrms;
         EXPECT_GT(mrms, previous);
         previous = mrms;
@@ -359,7 +357,7 @@ TEST(Distortion, IsAsPublished)
             const auto mrms = [&](Method method) {
                 Surface stego = cover;
                 EmbedOptions options = options_for(method, statistic);
-                options.trim = 0.1;
+                options.carriers.trim = 0.1;
                 return embed(stego, test_key(), options).mrms_relative;
             };
             const double cho = mrms(Method::Cho);

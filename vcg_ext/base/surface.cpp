@@ -33,6 +33,13 @@ Points face_normals(const Points& points, const std::vector<Triangle>& triangles
     return normals;
 }
 
+Points rounded_to_float(const Points& points)
+{
+    Points result(points.size());
+    for_each_index(static_cast<int>(points.size()), [&](int v) { result[v] = points[v].cast<float>().cast<double>(); });
+    return result;
+}
+
 Eigen::AlignedBox3d bounding_box(const Surface& surface)
 {
     using Box = Eigen::AlignedBox3d;

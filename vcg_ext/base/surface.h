@@ -41,6 +41,9 @@ struct VertexFaces {
 /// Unit normals of all faces; zero where a face has no area.
 [[nodiscard]] Points face_normals(const Points& points, const std::vector<Triangle>& triangles);
 
+/// Positions as a file of floats holds them.
+[[nodiscard]] Points rounded_to_float(const Points& points);
+
 /// The box around the vertices that faces refer to; empty where there are none.
 [[nodiscard]] Eigen::AlignedBox3d bounding_box(const Surface& surface);
 

@@ -15,19 +15,23 @@ std::vector<double> norms(const Points& points, const Point& centre)
     return result;
 }
 
-Shells shells(const Points& points, const std::vector<Triangle>& triangles, double trim, int count)
+ShellFrame shell_frame(const Points& points, const std::vector<Triangle>& triangles)
 {
-    Shells result;
-    result.centre = area_centre(points, triangles);
-    result.norms = norms(points, result.centre);
-    const auto [low, high] = std::minmax_element(result.norms.begin(), result.norms.end());
-    result.minimum = *low;
-    result.maximum = *high;
-    if (!(result.maximum - result.minimum > 1e-9 * result.maximum))
+    ShellFrame frame;
+    frame.centre = area_centre(points, triangles);
+    const std::vector<double> all = norms(points, frame.centre);
+    const auto [low, high] = std::minmax_element(all.begin(), all.end());
+    frame.minimum = *low;
+    frame.maximum = *high;
+    if (!(frame.maximum - frame.minimum > 1e-9 * frame.maximum))
         throw Error("All vertices are equally far from the mesh's centre, so their distances cannot carry a message. "
                     "Use another method, or another mesh.");
-    result.carriers = cut_range(result.norms, result.minimum, result.maximum, trim, count);
-    return result;
+    return frame;
+}
+
+Carriers shells(const Points& points, const ShellFrame& frame, double trim, int count)
+{
+    return cut_range(norms(points, frame.centre), frame.minimum, frame.maximum, trim, count);
 }
 
 } // namespace vcg_ext

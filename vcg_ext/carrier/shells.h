@@ -4,20 +4,21 @@
 
 namespace vcg_ext {
 
-/// Vertex norms about the surface's own centre, and the shells that cut their range ((5.1)-(5.6)).
-struct Shells {
-    Point centre;              ///< (5.1) with the normaliser put right: sum A(v) v / sum A(v)
-    std::vector<double> norms; ///< |v - centre|
-    double minimum = 0;
+/// Where the shells of vertex norms lie: a centre, and the range of distances from it ((5.1)-(5.5)).
+struct ShellFrame {
+    Point centre = Point::Zero(); ///< (5.1) with the normaliser put right: sum A(v) v / sum A(v)
+    double minimum = 0;           ///< of the norms |v - centre|
     double maximum = 0;
-    Carriers carriers;
 };
 
 /// |v - centre| of every vertex.
 [[nodiscard]] std::vector<double> norms(const Points& points, const Point& centre);
 
-/// \param trim part of the range of norms that is cut off at both ends, eps of (5.2)
+/// The frame that a surface itself defines.
 /// \throw Error where no face has an area, or all norms are the same
-[[nodiscard]] Shells shells(const Points& points, const std::vector<Triangle>& triangles, double trim, int count);
+[[nodiscard]] ShellFrame shell_frame(const Points& points, const std::vector<Triangle>& triangles);
+
+/// \param trim part of the range of norms that is cut off at both ends, eps of (5.2)
+[[nodiscard]] Carriers shells(const Points& points, const ShellFrame& frame, double trim, int count);
 
 } // namespace vcg_ext

@@ -42,36 +42,50 @@ double evidence(const Carriers& carriers, Statistic statistic)
 
 } // namespace
 
-SurfacePoint keyed_source(const Surface& surface, const Key& key, bool* from_volume)
+Points source_directions(Stream draws)
+{
+    constexpr int tries = 1000;
+    Points directions;
+    for (int i = 0; i < tries; ++i)
+        directions.push_back(draw_direction(draws));
+    return directions;
+}
+
+StripFrame strip_frame(const Surface& surface, const Points& directions)
 {
     const Frame frame = principal_frame(surface);
     if (frame.measure == 0)
         throw Error("No face of the mesh has an area. Check its coordinates, or reconstruct the surface.");
-    if (from_volume)
-        *from_volume = frame.from_volume;
-    Stream draws = key.stream("direction");
-    for (int attempt = 0; attempt < 1000; ++attempt)
-        if (const auto hit = farthest_hit(surface, frame.centre, frame.axes * draw_direction(draws)))
-            return *hit;
+    for (const Point& direction : directions)
+        if (const auto hit = farthest_hit(surface, frame.centre, frame.axes * direction))
+            return {*hit, {}, frame.from_volume};
     throw Error("No ray from the mesh's centre meets its surface, so geodesic distances have no source. "
                 "Use another method, or a more complete mesh.");
 }
 
-Strips strips_from(const SurfacePoint& source, const Surface& surface, const VertexFaces& around, double trim,
-                   int count)
+Strips strips_from(const StripFrame& frame, const Surface& surface, const VertexFaces& around, double trim, int count)
 {
     Strips strips;
-    strips.source = source;
-    strips.arrivals = march(surface, around, source);
+    strips.arrivals = march(surface, around, frame.source);
     for (const Arrival& arrival : strips.arrivals) {
-        strips.distances.push_back(arrival.distance);
         if (std::isinf(arrival.distance))
             ++strips.unreached;
         else
             strips.farthest = std::max(strips.farthest, arrival.distance);
     }
-    strips.carriers = cut_range(strips.distances, 0, strips.farthest, trim, count);
+    if (frame.farthest)
+        strips.farthest = *frame.farthest;
+    strips.carriers = recut(strips, trim, count);
     return strips;
+}
+
+Carriers recut(const Strips& strips, double trim, int count)
+{
+    std::vector<double> distances;
+    distances.reserve(strips.arrivals.size());
+    for (const Arrival& arrival : strips.arrivals)
+        distances.push_back(arrival.distance);
+    return cut_range(distances, 0, strips.farthest, trim, count);
 }
 
 SurfacePoint carried_along(const SurfacePoint& source, const Surface& surface, const Points& points)
@@ -89,24 +103,23 @@ SurfacePoint carried_along(const SurfacePoint& source, const Surface& surface, c
     return {source.face, points[a] + along_b * (points[b] - points[a]) + along_c * (points[c] - points[a])};
 }
 
-Strips read_strips(const Surface& surface, const VertexFaces& around, const Key& key, double trim, int count,
+Strips read_strips(const Surface& surface, const VertexFaces& around, const StripFrame& frame, double trim, int count,
                    Statistic statistic)
 {
-    bool from_volume = false;
-    const SurfacePoint source = keyed_source(surface, key, &from_volume);
     Strips best;
     double most = -1;
     for (const int rounds : {0, 1, 3}) {
         const Surface smooth{smoothed_along_normals(surface, around, rounds, 0.5), surface.triangles};
-        Strips strips = strips_from(carried_along(source, surface, smooth.points), smooth, around, trim, count);
-        const double here = evidence(strips.carriers, statistic);
-        if (here > most) {
-            most = here;
+        StripFrame here = frame;
+        here.source = carried_along(frame.source, surface, smooth.points);
+        Strips strips = strips_from(here, smooth, around, trim, count);
+        const double found = evidence(strips.carriers, statistic);
+        if (found > most) {
+            most = found;
             best = std::move(strips);
             best.smoothing_rounds = rounds;
         }
     }
-    best.from_volume = from_volume;
     return best;
 }
 

@@ -1,33 +1,45 @@
 #pragma once
 #include "../geometry/fast_marching.h"
-#include "../key/key.h"
+#include "../key/stream.h"
 #include "carriers.h"
-#include "statistic.h"
+
+#include <optional>
 
 namespace vcg_ext {
 
-/// Strips of equal geodesic distance from a point that only the key knows (thesis 4.3.1, 4.3.2).
-struct Strips {
+/// Where the strips of geodesic distance begin and end (thesis 4.3.1, 4.3.2).
+struct StripFrame {
     SurfacePoint source;
-    std::vector<Arrival> arrivals; ///< per vertex
-    double farthest = 0;           ///< T_max; T_min is 0, the source itself
-    Carriers carriers;
-    std::vector<double> distances; ///< per vertex, those of `arrivals`
-    int smoothing_rounds = 0;      ///< of the surface before the march, see read_strips()
-    int unreached = 0;             ///< vertices that no path of faces leads to; they carry nothing
-    bool from_volume = false;      ///< whether the frame is that of the enclosed solid (principal_frame)
+    /// T_max; T_min is 0, the source itself. Empty: the farthest distance that the march finds.
+    std::optional<double> farthest;
+    bool from_volume = false; ///< whether the source was found in the frame of the enclosed solid (principal_frame)
 };
 
-/// Finds the source: the farthest point of the surface in a direction that the key draws in the body's own frame, the
-/// next direction where the ray misses (4.3).
+/// Strips of equal geodesic distance from a point that only the key knows.
+struct Strips {
+    std::vector<Arrival> arrivals; ///< per vertex
+    double farthest = 0;           ///< T_max
+    Carriers carriers;
+    int smoothing_rounds = 0; ///< of the surface before the march, see read_strips()
+    int unreached = 0;        ///< vertices that no path of faces leads to; they carry nothing
+};
+
+/// Directions in a body's own frame, the one after the other to be tried as the way to the source.
+[[nodiscard]] Points source_directions(Stream draws);
+
+/// Finds the source: the farthest point of the surface in a direction of the body's own frame, the next direction where
+/// the ray misses (4.3).
 ///
 /// \throw Error where no ray from the centre meets the surface
-[[nodiscard]] SurfacePoint keyed_source(const Surface& surface, const Key& key, bool* from_volume = nullptr);
+[[nodiscard]] StripFrame strip_frame(const Surface& surface, const Points& directions);
 
-/// Distances from `source`, and the strips between `trim` and 1 - `trim` of the farthest ((4.4)-(4.6) with their offset
-/// put right). \param around of the surface's triangles
-[[nodiscard]] Strips strips_from(const SurfacePoint& source, const Surface& surface, const VertexFaces& around,
+/// Distances from the frame's source, and the strips between `trim` and 1 - `trim` of the farthest ((4.4)-(4.6) with
+/// their offset put right). \param around of the surface's triangles
+[[nodiscard]] Strips strips_from(const StripFrame& frame, const Surface& surface, const VertexFaces& around,
                                  double trim, int count);
+
+/// The strips, were there `count` of them.
+[[nodiscard]] Carriers recut(const Strips& strips, double trim, int count);
 
 /// The same point of the material in other positions of the surface's vertices.
 [[nodiscard]] SurfacePoint carried_along(const SurfacePoint& source, const Surface& surface, const Points& points);
@@ -38,7 +50,7 @@ struct Strips {
 /// smoothing along the normals, which keeps the density along the surface that carries the mark. That reading is taken
 /// whose statistics lie farthest from their threshold: largest sum of n s^2. It never looks at the mask, so p stays
 /// exact.
-[[nodiscard]] Strips read_strips(const Surface& surface, const VertexFaces& around, const Key& key, double trim,
-                                 int count, Statistic statistic);
+[[nodiscard]] Strips read_strips(const Surface& surface, const VertexFaces& around, const StripFrame& frame,
+                                 double trim, int count, Statistic statistic);
 
 } // namespace vcg_ext

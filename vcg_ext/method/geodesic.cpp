@@ -1,10 +1,7 @@
 #include "geodesic.h"
 
-#include "../placement/front.h"
-
 #include <cmath>
 #include <limits>
-#include <memory>
 
 namespace vcg_ext {
 
@@ -25,64 +22,127 @@ std::vector<double> front_targets(const Strips& strips, const Triangle& source_f
     return targets;
 }
 
-} // namespace
-
-std::vector<std::string> strip_warnings(const Strips& strips)
+/// What a user should know about the strips that were found.
+std::vector<std::string> warnings_of(const StripFrame& frame, const Strips& strips)
 {
     std::vector<std::string> warnings;
-    if (!strips.from_volume)
+    if (!frame.from_volume)
         warnings.emplace_back(
-            "The mesh is not closed or not consistently oriented, so it is aligned by the moments of its "
-            "surface. Cutting it or filling its holes afterwards loses the mark.");
+            "The mesh is not closed or not consistently oriented, so it is aligned by the moments of its surface. "
+            "Cutting it or filling its holes afterwards loses the mark.");
     if (strips.unreached > 0)
-        warnings.push_back(
-            std::to_string(strips.unreached) +
-            " vertices belong to parts of the mesh that are not connected with the part that carries the "
-            "mark; they stay as they are.");
+        warnings.push_back(std::to_string(strips.unreached) +
+                           " vertices belong to parts of the mesh that are not connected with the part that carries "
+                           "the mark; they stay as they are.");
     return warnings;
 }
 
-ScalarMethod geodesic_method(const Cover& cover, const Key& key, const EmbedOptions& options, double trim,
-                             EmbedReport& report)
-{
-    const Surface& surface = cover.surface;
-    bool from_volume = false;
-    const SurfacePoint source = keyed_source(surface, key, &from_volume);
-    const auto strips = std::make_shared<Strips>(strips_from(source, surface, cover.around, trim, options.bits));
-    strips->from_volume = from_volume;
-    report.warnings = strip_warnings(*strips);
-    ScalarMethod method;
-    method.guard = 0.02; // the source moves along with the mark, and the strips with it
-    method.cover = strips->carriers;
-    method.cut = [strips, trim](int count) { return cut_range(strips->distances, 0, strips->farthest, trim, count); };
-    // The least sum of squared distances from the surface: ask of each vertex in proportion to what it can do for free.
-    // On fandisk the mark distorts a fifth of what it does with equal shares. The thesis' scheme has equal shares.
-    method.mobility = options.front_scheme == FrontScheme::PredictCorrect
-                          ? front_mobility(cover, strips->arrivals)
-                          : std::vector<double>(surface.points.size(), 1);
-    method.place = [&cover, strips, &report, scheme = options.front_scheme](const std::vector<double>& told) {
-        FrontOptions front;
-        front.scheme = scheme;
-        const FrontPlacement placement =
-            place_front(cover, strips->arrivals, front_targets(*strips, cover.triangles[strips->source.face], told),
-                        1e-4 * strips->carriers.width, front);
-        report.moves = placement.counts;
-        report.guarded_vertices = placement.counts.unconverged;
-        return placement.points;
-    };
-    method.read = [&cover, &surface, &key, trim, options](const Points& stored) {
-        return read_strips({stored, surface.triangles}, cover.around, key, trim, options.bits, options.statistic)
+/// The distance from the source as embed_scalar() wants it.
+class Distance {
+public:
+    Distance(const Cover& cover, const Plan& plan, FrontScheme scheme) : cover_(cover), plan_(plan), scheme_(scheme) {}
+
+    static constexpr double guard = 0.02; // the source moves along with the mark, and the strips with it
+
+    [[nodiscard]] StripFrame find(const Points& points) const
+    {
+        return strip_frame({points, cover_.triangles}, plan_.directions);
+    }
+
+    [[nodiscard]] Carriers read(const Points& points, const StripFrame& frame) const
+    {
+        return read_strips({points, cover_.triangles}, cover_.around, frame, plan_.trim, plan_.options.bits,
+                           plan_.options.statistic)
             .carriers;
-    };
-    method.reframe = [&cover, strips, &surface, &key, trim, bits = options.bits](const Points& stored) {
-        const Surface marked{stored, surface.triangles};
-        const SurfacePoint source = keyed_source(marked, key);
-        const double farthest = strips_from(source, marked, cover.around, trim, bits).farthest;
-        *strips = strips_from(carried_along(source, marked, surface.points), surface, cover.around, trim, bits);
-        strips->carriers = cut_range(strips->distances, 0, farthest, trim, bits);
-        return strips->carriers;
-    };
-    return method;
+    }
+
+    [[nodiscard]] StripFrame on_cover(const Points& points, StripFrame frame) const
+    {
+        const Surface marked{points, cover_.triangles};
+        frame.farthest = strips_from(frame, marked, cover_.around, plan_.trim, plan_.options.bits).farthest;
+        frame.source = carried_along(frame.source, marked, cover_.points);
+        return frame;
+    }
+
+    void aim(const StripFrame& frame)
+    {
+        frame_ = frame;
+        strips_ = strips_from(frame, cover_.surface, cover_.around, plan_.trim, plan_.options.bits);
+    }
+
+    [[nodiscard]] Carriers cut(int count) const { return recut(strips_, plan_.trim, count); }
+
+    /// The least sum of squared distances from the surface: ask of each vertex in proportion to what it can do for
+    /// free. On fandisk the mark distorts a fifth of what it does with equal shares. The thesis' scheme has equal
+    /// shares.
+    [[nodiscard]] std::vector<double> mobility() const
+    {
+        return scheme_ == FrontScheme::PredictCorrect ? front_mobility(cover_, strips_.arrivals)
+                                                      : std::vector<double>(cover_.points.size(), 1);
+    }
+
+    [[nodiscard]] Proposal place(const std::vector<double>& told) const
+    {
+        FrontOptions front;
+        front.scheme = scheme_;
+        FrontPlacement placed =
+            place_front(cover_, strips_.arrivals, front_targets(strips_, cover_.triangles[frame_.source.face], told),
+                        1e-4 * strips_.carriers.width, front);
+        Proposal proposal;
+        proposal.points = std::move(placed.points);
+        proposal.guarded_vertices = placed.counts.unconverged;
+        proposal.moves = placed.counts;
+        return proposal;
+    }
+
+    [[nodiscard]] std::vector<std::string> warnings() const { return warnings_of(frame_, strips_); }
+
+private:
+    const Cover& cover_;
+    const Plan& plan_;
+    FrontScheme scheme_;
+    StripFrame frame_;
+    Strips strips_; ///< of the cover, in that frame
+};
+
+} // namespace
+
+Plan plan_geodesic(const Key& key, const CarrierOptions& options)
+{
+    Plan plan;
+    plan.options = options;
+    // The thesis draws from (0, 0.2), but where nearly nothing is cut off, the first and the last strip are too small to
+    // hold a vertex; so in [0.05, 0.2].
+    plan.trim = options.trim >= 0 ? options.trim : 0.05 + static_cast<double>(key.stream("epsilon").below(15001)) / 1e5;
+    plan.order = key.stream("carrier-order").permutation(options.bits);
+    plan.directions = source_directions(key.stream("direction"));
+    return plan;
+}
+
+MarkFrame find_geodesic(const Surface& surface, const Plan& plan)
+{
+    return strip_frame(surface, plan.directions);
+}
+
+Readings read_geodesic(const Surface& surface, const Plan& plan, const MarkFrame& frame)
+{
+    const VertexFaces around = vertex_faces(static_cast<int>(surface.points.size()), surface.triangles);
+    const StripFrame& strip_frame = std::get<StripFrame>(frame);
+    Strips strips = read_strips(surface, around, strip_frame, plan.trim, plan.options.bits, plan.options.statistic);
+    Readings readings = read_carriers(std::move(strips.carriers), plan);
+    readings.smoothing_rounds = strips.smoothing_rounds;
+    readings.warnings = warnings_of(strip_frame, strips);
+    return readings;
+}
+
+Marking embed_geodesic(const Cover& cover, const Plan& plan, const Bits& coded, const PlacementOptions& options,
+                       const Progress& progress)
+{
+    Distance distance(cover, plan, options.front_scheme);
+    Marking marking = embed_scalar(distance, cover, plan, coded, options, progress);
+    const std::vector<std::string> warnings = distance.warnings();
+    marking.warnings.insert(marking.warnings.end(), warnings.begin(), warnings.end());
+    return marking;
 }
 
 } // namespace vcg_ext

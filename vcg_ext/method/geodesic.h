@@ -1,19 +1,15 @@
 #pragma once
-#include "../carrier/strips.h"
 #include "../placement/cover.h"
-#include "../watermark/watermark.h"
 #include "scalar.h"
 
 namespace vcg_ext {
 
-/// The method of geodesic distances (chapter 4): strips about a point that the key chose, and front placement.
-///
-/// \param cover  welded; must outlive the result
-/// \param report  gets counts and warnings, the counts after each placement
-[[nodiscard]] ScalarMethod geodesic_method(const Cover& cover, const Key& key, const EmbedOptions& options, double trim,
-                                           EmbedReport& report);
-
-/// What a user should know about the strips that were found.
-[[nodiscard]] std::vector<std::string> strip_warnings(const Strips& strips);
+/// The method of geodesic distances (chapter 4): strips about a point that the key chose, and front placement; see
+/// MethodRow.
+[[nodiscard]] Plan plan_geodesic(const Key& key, const CarrierOptions& options);
+[[nodiscard]] MarkFrame find_geodesic(const Surface& surface, const Plan& plan);
+[[nodiscard]] Readings read_geodesic(const Surface& surface, const Plan& plan, const MarkFrame& frame);
+[[nodiscard]] Marking embed_geodesic(const Cover& cover, const Plan& plan, const Bits& coded,
+                                     const PlacementOptions& options, const Progress& progress);
 
 } // namespace vcg_ext

@@ -1,15 +1,11 @@
 #include "norms.h"
 
 #include "../base/parallel.h"
-#include "../carrier/shells.h"
 #include "../placement/fold_guard.h"
 #include "../placement/radial.h"
 #include "../placement/selective.h"
-#include "../placement/sphere.h"
 
-#include <algorithm>
 #include <cmath>
-#include <memory>
 
 namespace vcg_ext {
 
@@ -17,37 +13,38 @@ namespace {
 
 /// Places vertices on their spheres. What a vertex got it keeps in later calls, as long as centre and target are the
 /// same.
-class Placement {
+class SpherePlacement {
 public:
-    Placement(const Cover& cover, const EmbedOptions& options)
-        : cover_(cover), options_(options), targets_(cover_.points.size(), NAN), best_(cover_.points),
+    SpherePlacement(const Cover& cover, Radial how, const SphereOptions& options)
+        : cover_(cover), how_(how), options_(options), targets_(cover_.points.size(), NAN), best_(cover_.points),
           iterations_(cover_.points.size(), 0), converged_(cover_.points.size(), 1)
     {
     }
 
     /// \param targets norms about `centre`; NaN where a vertex stays
-    Points place(const Point& centre, const std::vector<double>& targets, EmbedReport& report)
+    Proposal place(const Point& centre, const std::vector<double>& targets)
     {
         const std::vector<int> changed = take_up(centre, targets);
-        if (options_.method == Method::LM)
+        Proposal proposal;
+        if (how_ == Radial::Sphere) {
             place_by_sweeps(changed);
-        else
+            proposal.solver = summary();
+        } else {
             place_each(changed, best_, [&](int v) {
-                return options_.method == Method::QSP ? place_selective(cover_, v, centre_, targets_[v])
-                                                      : radial_point(cover_.points[v], centre_, targets_[v]);
+                return how_ == Radial::Selective ? place_selective(cover_, v, centre_, targets_[v])
+                                                 : radial_point(cover_.points[v], centre_, targets_[v]);
             });
-        if (options_.method == Method::LM)
-            report.solver = summary();
-        Points points = best_;
-        report.guarded_vertices = guard(points);
-        return points;
+        }
+        proposal.points = best_;
+        proposal.guarded_vertices = guard(proposal.points);
+        return proposal;
     }
 
 private:
     /// The vertices that have a target and are not where it asks them to be.
     std::vector<int> take_up(const Point& centre, const std::vector<double>& targets)
     {
-        const bool keep = centre == centre_ && (options_.method != Method::LM || options_.sphere_sweeps == 1);
+        const bool keep = centre == centre_ && (how_ != Radial::Sphere || options_.sweeps == 1);
         std::vector<int> changed;
         for (std::size_t v = 0; v < targets.size(); ++v) {
             if (std::isnan(targets[v]))
@@ -68,12 +65,11 @@ private:
 
     void place_by_sweeps(const std::vector<int>& vertices)
     {
-        const SphereWeights& weights = options_.sphere_weights;
-        for (int sweep = 0; sweep < options_.sphere_sweeps; ++sweep) {
+        for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
             const Points neighbours = sweep == 0 ? Points() : best_;
             place_each(vertices, best_, [&](int v) {
-                const Eigen::Matrix3d energy =
-                    sweep == 0 ? sphere_energy(cover_, v, weights) : sphere_energy(cover_, neighbours, v, weights);
+                const Eigen::Matrix3d energy = sweep == 0 ? sphere_energy(cover_, v, options_.weights)
+                                                          : sphere_energy(cover_, neighbours, v, options_.weights);
                 const SphereSolution solution = place_on_sphere(cover_.points[v], centre_, targets_[v], energy);
                 iterations_[v] = solution.iterations;
                 converged_[v] = solution.converged;
@@ -117,7 +113,8 @@ private:
     }
 
     const Cover& cover_;
-    EmbedOptions options_;
+    Radial how_;
+    SphereOptions options_;
     Point centre_ = Point::Zero();
     std::vector<double> targets_;
     Points best_; ///< before the guard
@@ -125,33 +122,91 @@ private:
     std::vector<char> converged_;
 };
 
+/// The norm as embed_scalar() wants it.
+class Norm {
+public:
+    Norm(const Cover& cover, Radial how, const Plan& plan, const SphereOptions& options)
+        : cover_(cover), plan_(plan), placement_(cover, how, options)
+    {
+    }
+
+    static constexpr double guard = 0;
+
+    [[nodiscard]] ShellFrame find(const Points& points) const { return shell_frame(points, cover_.triangles); }
+
+    [[nodiscard]] Carriers read(const Points& points, const ShellFrame& frame) const
+    {
+        return shells(points, frame, plan_.trim, plan_.options.bits);
+    }
+
+    [[nodiscard]] ShellFrame on_cover(const Points& /*points*/, const ShellFrame& frame) const { return frame; }
+
+    void aim(const ShellFrame& frame)
+    {
+        frame_ = frame;
+        norms_ = norms(cover_.points, frame.centre);
+    }
+
+    [[nodiscard]] Carriers cut(int count) const
+    {
+        return cut_range(norms_, frame_.minimum, frame_.maximum, plan_.trim, count);
+    }
+
+    /// The vertices that attain the least and the largest norm stay, or the range would move with them.
+    [[nodiscard]] std::vector<double> mobility() const
+    {
+        const auto [least, most] = std::minmax_element(norms_.begin(), norms_.end());
+        std::vector<double> result(norms_.size());
+        for_each_index(static_cast<int>(result.size()),
+                       [&](int v) { result[v] = norms_[v] == *least || norms_[v] == *most ? 0 : 1; });
+        return result;
+    }
+
+    Proposal place(const std::vector<double>& targets) { return placement_.place(frame_.centre, targets); }
+
+private:
+    const Cover& cover_;
+    const Plan& plan_;
+    SpherePlacement placement_;
+    ShellFrame frame_;
+    std::vector<double> norms_; ///< of the cover, in that frame
+};
+
 } // namespace
 
-ScalarMethod norm_method(const Cover& cover, const EmbedOptions& options, double trim, EmbedReport& report)
+Plan plan_norms(const Key& key, const CarrierOptions& options)
 {
-    const Surface& surface = cover.surface;
-    const auto frame = std::make_shared<Shells>(shells(surface.points, surface.triangles, trim, options.bits));
-    ScalarMethod method;
-    method.cover = frame->carriers;
-    method.cut = [frame, trim](int count) {
-        return cut_range(frame->norms, frame->minimum, frame->maximum, trim, count);
-    };
-    method.mobility.resize(surface.points.size());
-    for_each_index(static_cast<int>(surface.points.size()), [&](int v) {
-        method.mobility[v] = frame->norms[v] == frame->minimum || frame->norms[v] == frame->maximum ? 0 : 1;
-    });
-    method.place = [frame, placement = std::make_shared<Placement>(cover, options), &report](
-                       const std::vector<double>& targets) { return placement->place(frame->centre, targets, report); };
-    const auto marked = std::make_shared<Shells>();
-    method.read = [marked, &surface, trim, bits = options.bits](const Points& stored) {
-        *marked = shells(stored, surface.triangles, trim, bits);
-        return marked->carriers;
-    };
-    method.reframe = [&cover, frame, marked, trim, bits = options.bits](const Points&) { // those that it read last
-        *frame = *marked;
-        return cut_range(norms(cover.points, frame->centre), frame->minimum, frame->maximum, trim, bits);
-    };
-    return method;
+    Plan plan;
+    plan.options = options;
+    plan.trim = options.trim >= 0 ? options.trim
+                                  : static_cast<double>(key.stream("epsilon").below(15001)) / 1e5; // thesis 5.2.1
+    plan.order = key.stream("carrier-order").permutation(options.bits);
+    return plan;
 }
+
+MarkFrame find_norms(const Surface& surface, const Plan& /*plan*/)
+{
+    return shell_frame(surface.points, surface.triangles);
+}
+
+Readings read_norms(const Surface& surface, const Plan& plan, const MarkFrame& frame)
+{
+    return read_carriers(shells(surface.points, std::get<ShellFrame>(frame), plan.trim, plan.options.bits), plan);
+}
+
+template <Radial placement>
+Marking embed_norms(const Cover& cover, const Plan& plan, const Bits& coded, const PlacementOptions& options,
+                    const Progress& progress)
+{
+    Norm norm(cover, placement, plan, options.sphere);
+    return embed_scalar(norm, cover, plan, coded, options, progress);
+}
+
+template Marking embed_norms<Radial::Sphere>(const Cover&, const Plan&, const Bits&, const PlacementOptions&,
+                                             const Progress&);
+template Marking embed_norms<Radial::Selective>(const Cover&, const Plan&, const Bits&, const PlacementOptions&,
+                                                const Progress&);
+template Marking embed_norms<Radial::Straight>(const Cover&, const Plan&, const Bits&, const PlacementOptions&,
+                                               const Progress&);
 
 } // namespace vcg_ext

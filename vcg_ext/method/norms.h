@@ -1,15 +1,24 @@
 #pragma once
 #include "../placement/cover.h"
-#include "../watermark/watermark.h"
 #include "scalar.h"
 
 namespace vcg_ext {
 
-/// The methods of vertex norms (chapter 5 and Cho): shells of the distance to the centre, and the placement that
-/// `options.method` names. What a placement counted is in `report` after each of its calls.
-///
-/// \param cover welded; must outlive the result
-[[nodiscard]] ScalarMethod norm_method(const Cover& cover, const EmbedOptions& options, double trim,
-                                       EmbedReport& report);
+/// The methods of vertex norms (chapter 5 and Cho): shells of the distance to the centre. What they share but the
+/// placement; see MethodRow.
+[[nodiscard]] Plan plan_norms(const Key& key, const CarrierOptions& options);
+[[nodiscard]] MarkFrame find_norms(const Surface& surface, const Plan& plan);
+[[nodiscard]] Readings read_norms(const Surface& surface, const Plan& plan, const MarkFrame& frame);
+
+/// How a vertex gets to its sphere.
+enum class Radial {
+    Sphere,    ///< where that is least seen, by Levenberg-Marquardt (thesis 5.5)
+    Selective, ///< where a quadric says so (thesis 5.4)
+    Straight   ///< along the ray from the centre (Cho et al.)
+};
+
+template <Radial placement>
+[[nodiscard]] Marking embed_norms(const Cover& cover, const Plan& plan, const Bits& coded,
+                                  const PlacementOptions& options, const Progress& progress);
 
 } // namespace vcg_ext

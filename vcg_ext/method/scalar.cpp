@@ -1,23 +1,13 @@
 #include "scalar.h"
 
 #include "../base/parallel.h"
-#include "../base/progress.h"
-#include "../carrier/statistic.h"
 #include "../placement/histogram.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace vcg_ext {
 
 namespace {
-
-/// A carrier this far out, as a part of alpha, is strong enough; nearer ones are pushed again.
-constexpr double enough = 0.75;
-
-/// The target of a vertex that does not move.
-constexpr double stay = std::numeric_limits<double>::quiet_NaN();
 
 /// Per carrier the vertices that it holds, in ascending order.
 std::vector<std::vector<int>> members(const Carriers& carriers)
@@ -29,21 +19,44 @@ std::vector<std::vector<int>> members(const Carriers& carriers)
     return result;
 }
 
-double side(char bit)
+/// Part of a carrier that rounding to float can move a value by, with room to spare.
+double float_guard(const Points& points, const Carriers& carriers)
 {
-    return bit ? 1 : -1;
+    const double largest =
+        ordered_maximum(static_cast<int>(points.size()), 0.0, [&](int v) { return points[v].cwiseAbs().maxCoeff(); });
+    return 4 * std::numeric_limits<float>::epsilon() * largest / carriers.width;
 }
 
-/// The scalar that each vertex is to have. Carriers already beyond their targets are left alone.
+} // namespace
+
+Readings read_carriers(Carriers carriers, const Plan& plan)
+{
+    const Statistic statistic = plan.options.statistic;
+    const std::vector<int> count = samples(carriers);
+    const std::vector<double> read = statistics(carriers, statistic);
+    Reading reading;
+    for (const int k : plan.order) {
+        reading.soft.push_back(count[k] > 0 ? (read[k] - threshold(statistic)) / standard_error(statistic, count[k])
+                                            : 0);
+        reading.samples.push_back(count[k]);
+        reading.erased.push_back(count[k] == 0);
+        reading.label.push_back(k);
+    }
+    Readings readings;
+    readings.ways.push_back(std::move(reading));
+    readings.label_of_vertex = std::move(carriers.label);
+    return readings;
+}
+
 std::vector<double> target_scalars(const Carriers& cover, const std::vector<double>& mobility,
                                    const std::vector<double>& targets, const std::vector<char>& bits,
                                    Statistic statistic, double guard)
 {
     const std::vector<std::vector<int>> vertices = members(cover);
     const std::vector<double> now = statistics(cover, statistic);
-    std::vector<double> scalars(cover.label.size(), stay);
+    std::vector<double> scalars(cover.label.size(), std::numeric_limits<double>::quiet_NaN());
     for_chunks(cover.count, 1, [&](int k, int) {
-        if (side(bits[k]) * (now[k] - targets[k]) >= 0)
+        if ((bits[k] ? 1 : -1) * (now[k] - targets[k]) >= 0)
             return;
         std::vector<double> values;
         std::vector<double> mobilities;
@@ -59,55 +72,41 @@ std::vector<double> target_scalars(const Carriers& cover, const std::vector<doub
     return scalars;
 }
 
-} // namespace
-
-ScalarResult embed_scalar(const ScalarMethod& method, Statistic statistic, const std::vector<char>& bits, double alpha,
-                          double guard, int max_rounds, const std::function<Points(const Points&)>& round,
-                          const Progress& progress)
+std::vector<char> bits_by_carrier(const Bits& coded, const Plan& plan)
 {
-    Carriers cover = method.cover;
-    const double middle = threshold(statistic);
-    std::vector<double> targets(cover.count);
-    for (int k = 0; k < cover.count; ++k)
-        targets[k] = middle + side(bits[k]) * alpha;
+    std::vector<char> bits(coded.size());
+    for (std::size_t i = 0; i < coded.size(); ++i)
+        bits[plan.order[i]] = static_cast<char>(coded[i]);
+    return bits;
+}
 
-    const auto read_margins = [&](const Carriers& carriers) {
-        std::vector<double> margins = statistics(carriers, statistic);
-        for (int k = 0; k < carriers.count; ++k)
-            margins[k] = side(bits[k]) * (margins[k] - middle);
-        return margins;
+int count_of_filled(int count, const std::function<Carriers(int)>& cut)
+{
+    const auto none_empty = [&](int carriers) {
+        const std::vector<int> held = samples(cut(carriers));
+        return std::find(held.begin(), held.end(), 0) == held.end();
     };
-    const auto worst_of = [](const std::vector<double>& margins) {
-        return *std::min_element(margins.begin(), margins.end());
-    };
+    int filled = count;
+    while (filled < most_carriers && none_empty(std::min(2 * filled, most_carriers)))
+        filled = std::min(2 * filled, most_carriers);
+    for (int empty = std::min(2 * filled, most_carriers); filled < most_carriers && empty - filled > 1;) {
+        const int middle = (filled + empty) / 2;
+        (none_empty(middle) ? filled : empty) = middle;
+    }
+    return filled;
+}
 
-    ScalarResult best{{}, read_margins(cover), 0};
-    if (worst_of(best.margins) >= enough * alpha) { // the mark is there already
-        best.points = method.place(std::vector<double>(cover.label.size(), stay));
-        return best;
-    }
-    double best_margin = -std::numeric_limits<double>::infinity();
-    for (int r = 1; r <= max_rounds; ++r) {
-        report(progress, 20 + 60 * (r - 1) / max_rounds, "Placing vertices");
-        Points points = method.place(target_scalars(cover, method.mobility, targets, bits, statistic, guard));
-        const Points stored = round(points);
-        std::vector<double> margins = read_margins(method.read(stored));
-        for (int k = 0; k < cover.count; ++k)
-            if (margins[k] < enough * alpha && (r > 1 || !method.reframe))
-                targets[k] = std::clamp(targets[k] + side(bits[k]) * (alpha - margins[k]), 0.02, 0.98);
-        const double worst = worst_of(margins);
-        if (worst > best_margin) {
-            best_margin = worst;
-            best.points = std::move(points);
-            best.margins = std::move(margins);
-        }
-        best.rounds = r;
-        if (best_margin >= enough * alpha)
-            break;
-        if (method.reframe && r == 1) // later rounds push single carriers in a frame that holds still
-            cover = method.reframe(stored);
-    }
-    return best;
+Storing storing(const Points& points, const Carriers& carriers, Storage storage)
+{
+    const double guard = float_guard(points, carriers);
+    if (guard <= 0.2)
+        return {rounded_to_float, guard, {}};
+    if (storage == Storage::Float)
+        throw Error("The mesh lies so far from the origin, or has so little range, that float coordinates are coarser "
+                    "than its carriers. Move it to the origin, or use another method.");
+    return {[](const Points& placed) { return placed; }, 0,
+            "The mark is finer than float coordinates: save to a file format that holds doubles, or move the mesh to "
+            "the origin first."};
 }
 
 } // namespace vcg_ext

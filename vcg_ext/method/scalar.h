@@ -1,45 +1,132 @@
 #pragma once
-#include "../base/progress.h"
-#include "../base/surface.h"
-#include "../carrier/carriers.h"
-#include "../carrier/statistic.h"
+#include "../carrier/reading.h"
+#include "../payload/message.h"
+#include "closed_loop.h"
+#include "plan.h"
 
-#include <functional>
+#include <optional>
 
 namespace vcg_ext {
 
-/// A method that hides bits in one scalar per vertex, as a choice at each step: which scalar, read how, placed how.
-struct ScalarMethod {
-    Carriers cover; ///< of the unmarked surface
-    /// The same, were there `count` of them.
-    std::function<Carriers(int count)> cut;
-    /// Per vertex how much of a move to ask of it, see map_histogram(); 0: it must not move.
-    std::vector<double> mobility;
-    double guard = 0; ///< part of a carrier's width that values must keep from its ends, for the frame's own sake
-    /// Positions in which the scalar of each vertex is as near as can be to its target; a NaN target lets it stay.
-    std::function<Points(const std::vector<double>& targets)> place;
-    /// The carriers as a blind detector finds them in other positions of the same vertices.
-    std::function<Carriers(const Points& stored)> read;
-    /// Takes up the frame that the detector found in `stored`, and returns the cover's carriers in it; may be empty.
-    /// Marking moves the frame a little. Aiming in the marked frame takes that out of the next round.
-    std::function<Carriers(const Points& stored)> reframe;
-};
+/// The reading of carriers that are sets of vertices with one scalar each.
+[[nodiscard]] Readings read_carriers(Carriers carriers, const Plan& plan);
 
-struct ScalarResult {
-    Points points;               ///< as placed, not yet rounded
-    std::vector<double> margins; ///< per carrier: how far on its bit's side of the threshold it reads; negative: wrong
-    int rounds = 0;
-};
-
-/// The closed loop: map the histogram of every carrier, place, round as stored, read blind; carriers that read wrong or
-/// weak get a target further out and another round. Returns the best round, judged by its worst carrier.
+/// The scalar that each vertex is to have, NaN where it stays: every carrier's histogram mapped to its target, but for
+/// those that are beyond it already.
 ///
-/// \param bits  per carrier the bit that it is to carry
-/// \param alpha distance of the target from the threshold, (4.8) and (5.7)
-/// \param guard part of a carrier's width that values keep from its ends
-/// \param round what storing does to positions
-[[nodiscard]] ScalarResult embed_scalar(const ScalarMethod& method, Statistic statistic, const std::vector<char>& bits,
-                                        double alpha, double guard, int max_rounds,
-                                        const std::function<Points(const Points&)>& round, const Progress& progress);
+/// \param mobility per vertex, see map_histogram()   \param targets per carrier   \param bits per carrier
+/// \param guard    part of a carrier's width that values keep from its ends
+[[nodiscard]] std::vector<double> target_scalars(const Carriers& cover, const std::vector<double>& mobility,
+                                                 const std::vector<double>& targets, const std::vector<char>& bits,
+                                                 Statistic statistic, double guard);
+
+/// The bits of a message by the carrier that the plan gives them.
+[[nodiscard]] std::vector<char> bits_by_carrier(const Bits& coded, const Plan& plan);
+
+/// Carriers, as many as can be found by doubling `count` and then halving the interval, of which none is empty.
+/// \param cut `cut(count)`: the cover's carriers, were there so many
+[[nodiscard]] int count_of_filled(int count, const std::function<Carriers(int)>& cut);
+
+/// What storing does to the positions of this cover, and the part of a carrier that values must keep from its ends for
+/// it.
+struct Storing {
+    Rounding round;
+    double guard = 0;
+    std::optional<std::string> warning;
+};
+
+/// \throw Error where float is coarser than the carriers and `storage` is Float
+[[nodiscard]] Storing storing(const Points& points, const Carriers& carriers, Storage storage);
+
+/// A carrier this far out, as a part of alpha, is strong enough; nearer ones are pushed again.
+constexpr double enough = 0.75;
+
+/// The closed loop of the methods that have one scalar per vertex: map the histogram of every carrier, place, round as
+/// stored, read blind; carriers that read wrong or weak get a target further out and another round.
+///
+/// Marking moves the frame a little. So the second round aims in the frame that the detector found after the first.
+///
+/// \param scalar which scalar, how read and how placed:
+///   - `find(points)`            the frame, as a blind detector finds it in other positions of the cover's vertices
+///   - `read(points, frame)`     the carriers, as it reads them there
+///   - `on_cover(points, frame)` that frame, carried over to the cover
+///   - `aim(frame)`              from now on, and in it:
+///   - `cut(count)`              the cover's carriers
+///   - `mobility()`              how much of a move to ask of each vertex; 0: it must not move
+///   - `place(targets)`          a Proposal in which each vertex' scalar is as near as can be to its target
+///   - `guard`                   part of a carrier's width that values keep from its ends, for the frame's own sake
+/// \param coded the bits to be written, as many as carriers
+template <class Scalar>
+Marking embed_scalar(Scalar& scalar, const Cover& cover, const Plan& plan, const Bits& coded,
+                     const PlacementOptions& options, const Progress& progress)
+{
+    Marking marking;
+    const Statistic statistic = plan.options.statistic;
+    const int count = plan.options.bits;
+    scalar.aim(scalar.find(cover.points));
+    Carriers carriers = scalar.cut(count);
+    const std::vector<int> held = samples(carriers);
+    marking.samples_min = *std::min_element(held.begin(), held.end());
+    const auto cut = [&scalar](int wanted) { return scalar.cut(wanted); };
+    if (marking.samples_min == 0)
+        throw DoesNotFit(std::to_string(std::count(held.begin(), held.end(), 0)) + " of the " + std::to_string(count) +
+                             " carriers hold no vertex.",
+                         count_of_filled(1, cut));
+    marking.capacity = count_of_filled(count, cut);
+    const Storing store = storing(cover.points, carriers, options.storage);
+    if (store.warning)
+        marking.warnings.push_back(*store.warning);
+    const double guard = std::max({store.guard, scalar.guard, 1e-6});
+
+    const std::vector<char> bits = bits_by_carrier(coded, plan);
+    const auto side = [&bits](int k) { return bits[k] ? 1.0 : -1.0; };
+    const double alpha = options.strength;
+    const double middle = threshold(statistic);
+    std::vector<double> targets(count);
+    for (int k = 0; k < count; ++k)
+        targets[k] = middle + side(k) * alpha;
+    const auto margins_of = [&](const Carriers& read) {
+        std::vector<double> margins = statistics(read, statistic);
+        for (int k = 0; k < count; ++k)
+            margins[k] = side(k) * (margins[k] - middle) - enough * alpha;
+        return margins;
+    };
+    const std::vector<double> before = margins_of(carriers);
+    if (*std::min_element(before.begin(), before.end()) >= 0) { // the mark is there already
+        marking.kept.points = cover.points;
+        return marking;
+    }
+
+    std::vector<double> mobility = scalar.mobility();
+    const auto propose = [&](int) {
+        return scalar.place(target_scalars(carriers, mobility, targets, bits, statistic, guard));
+    };
+    const auto read = [&](const Points& stored, int round) {
+        const auto frame = scalar.find(stored);
+        std::vector<double> margins = margins_of(scalar.read(stored, frame));
+        if (round == 1) { // later rounds push single carriers in a frame that holds still
+            if (*std::min_element(margins.begin(), margins.end()) < 0) {
+                scalar.aim(scalar.on_cover(stored, frame));
+                carriers = scalar.cut(count);
+                mobility = scalar.mobility();
+            }
+            return margins;
+        }
+        for (int k = 0; k < count; ++k)
+            if (margins[k] < 0)
+                targets[k] = std::clamp(targets[k] + side(k) * ((1 - enough) * alpha - margins[k]), 0.02, 0.98);
+        return margins;
+    };
+    LoopResult loop = closed_loop(options.max_rounds, store.round, propose, read, "Placing vertices", progress);
+    const auto wrong = std::count_if(loop.margins.begin(), loop.margins.end(),
+                                     [alpha](double margin) { return margin <= -enough * alpha; });
+    if (wrong > 0)
+        throw DoesNotFit(std::to_string(wrong) + " of the " + std::to_string(count) +
+                             " carriers could not be read back.",
+                         marking.capacity);
+    marking.kept = std::move(loop.kept);
+    marking.rounds = loop.rounds;
+    return marking;
+}
 
 } // namespace vcg_ext

@@ -5,8 +5,8 @@
 #include "../carrier/two_means.h"
 #include "../geometry/chebyshev.h"
 #include "../geometry/eigenbasis.h"
-#include "../payload/binomial.h"
 #include "../placement/fold_guard.h"
+#include "closed_loop.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,15 +22,6 @@ constexpr double high_share = 0.7; // the same, as the thesis prints it
 constexpr double printed_threshold = 2.25;
 
 } // namespace
-
-PatchPlan patch_plan(const Key& key, int bits, double trim, bool as_printed)
-{
-    PatchPlan plan;
-    plan.order = key.stream("patch-order").permutation(patch_count(bits, layers));
-    plan.trim = trim >= 0 ? trim : static_cast<double>(key.stream("trim").below(15001)) / 1e5;
-    plan.as_printed = as_printed;
-    return plan;
-}
 
 double PatchReading::soft(int patch) const
 {
@@ -72,36 +63,49 @@ double best_threshold(const std::vector<PatchShape>& shapes)
     return two_means(std::move(ratios));
 }
 
-PatchReading read_with(const Surface& surface, const EdgeGraph& graph, const PatchPlan& plan, const Frame* like)
+/// `frame`, its axes pointing the way that those of `like` do.
+Frame turned_like(Frame frame, const Frame& like)
+{
+    for (int k = 0; k < 3; ++k)
+        if (frame.axes.col(k).dot(like.axes.col(k)) < 0)
+            frame.axes.col(k) *= -1;
+    return frame;
+}
+
+Frame checked_frame(const Surface& surface)
+{
+    Frame frame = principal_frame(surface);
+    if (frame.measure == 0)
+        throw Error("No face of the mesh has an area. Check its coordinates, or reconstruct the surface.");
+    return frame;
+}
+
+PatchReading read_with(const Surface& surface, const EdgeGraph& graph, const Plan& plan, const Frame& frame)
 {
     const int count = static_cast<int>(plan.order.size());
+    const bool as_printed = plan.options.as_printed;
     PatchReading reading;
-    reading.frame = principal_frame(surface);
-    if (like)
-        for (int k = 0; k < 3; ++k)
-            if (reading.frame.axes.col(k).dot(like->axes.col(k)) < 0)
-                reading.frame.axes.col(k) *= -1;
-    reading.patches = plan.as_printed
-                          ? thesis_patches(surface, reading.frame, layers, count, plan.trim)
-                          : equal_area_patches(surface, graph, reading.frame, layers, count / layers, plan.trim);
+    reading.frame = frame;
+    reading.patches = as_printed ? thesis_patches(surface, frame, layers, count, plan.trim)
+                                 : equal_area_patches(surface, graph, frame, layers, count / layers, plan.trim);
     reading.vertices = patch_vertices(reading.patches);
-    const Points local = about(reading.frame.centre, surface.points);
-    reading.band = plan.as_printed ? exact_bands(graph, local, reading.vertices) : filtered(graph, local);
+    const Points local = about(frame.centre, surface.points);
+    reading.band = as_printed ? exact_bands(graph, local, reading.vertices) : filtered(graph, local);
     reading.shapes.resize(reading.vertices.size());
     for_chunks(static_cast<int>(reading.vertices.size()), 1,
                [&](int k, int) { reading.shapes[k] = patch_shape(reading.band, reading.vertices[k]); });
-    reading.threshold = plan.as_printed ? std::log(printed_threshold) : best_threshold(reading.shapes);
+    reading.threshold = as_printed ? std::log(printed_threshold) : best_threshold(reading.shapes);
     return reading;
 }
 
 } // namespace
 
-PatchReading read_patches(const Surface& surface, const PatchPlan& plan, const Frame* like)
+PatchReading read_patches(const Surface& surface, const Plan& plan, const Frame& frame)
 {
-    return read_with(surface, edge_graph(surface), plan, like);
+    return read_with(surface, edge_graph(surface), plan, frame);
 }
 
-std::vector<int> carrying_patches(const PatchReading& reading, const PatchPlan& plan, AxisFlips flips)
+std::vector<int> carrying_patches(const PatchReading& reading, const Plan& plan, AxisFlips flips)
 {
     // As printed, the number of patches hangs on the mesh: those that it lacks are passed over.
     std::vector<int> patches;
@@ -115,9 +119,9 @@ std::vector<int> carrying_patches(const PatchReading& reading, const PatchPlan& 
 namespace {
 
 /// As printed, the grid ends in leftovers and has no flipped twin.
-std::vector<AxisFlips> orientations(const PatchPlan& plan)
+std::vector<AxisFlips> orientations(const Plan& plan)
 {
-    if (plan.as_printed)
+    if (plan.options.as_printed)
         return {{false, false}};
     return {{false, false}, {true, false}, {false, true}, {true, true}};
 }
@@ -134,29 +138,27 @@ bool spare_bit(int number)
     return number % 2 == 1;
 }
 
-} // namespace
-
-AxisFlips blind_orientation(const PatchReading& reading, const PatchPlan& plan, int bits)
+int blind_orientation(const PatchReading& reading, const Plan& plan)
 {
-    AxisFlips best;
+    const std::vector<AxisFlips> all = orientations(plan);
+    int best = 0;
     double most = -std::numeric_limits<double>::infinity();
-    for (const AxisFlips flips : orientations(plan)) {
+    for (std::size_t way = 0; way < all.size(); ++way) {
+        const AxisFlips flips = all[way];
         if ((flips.first && !symmetric(reading.frame, 0)) || (flips.second && !symmetric(reading.frame, 1)))
             continue;
         const std::vector<int> patches = carrying_patches(reading, plan, flips);
         double agreement = 0;
-        for (int i = bits; i < static_cast<int>(patches.size()); ++i)
+        for (int i = plan.options.bits; i < static_cast<int>(patches.size()); ++i)
             if (patches[i] >= 0)
-                agreement += spare_bit(i - bits) ? reading.soft(patches[i]) : -reading.soft(patches[i]);
+                agreement += spare_bit(i - plan.options.bits) ? reading.soft(patches[i]) : -reading.soft(patches[i]);
         if (agreement > most) {
             most = agreement;
-            best = flips;
+            best = static_cast<int>(way);
         }
     }
     return best;
 }
-
-namespace {
 
 /// What a patch is to become, and when that is good enough.
 struct Aim {
@@ -212,27 +214,20 @@ int guard(const Cover& cover, Points& points)
 }
 
 /// Per patch the bit that it is to carry, or -1.
-std::vector<int> bits_of_patches(const PatchReading& reading, const PatchPlan& plan, const Bits& bits)
+std::vector<int> bits_of_patches(const PatchReading& reading, const Plan& plan, const Bits& bits)
 {
     std::vector<int> result(reading.patches.count(), -1);
     const std::vector<int> patches = carrying_patches(reading, plan, {});
     for (std::size_t i = 0; i < patches.size(); ++i)
         if (patches[i] >= 0 && i < bits.size())
             result[patches[i]] = bits[i];
-        else if (patches[i] >= 0 && !plan.as_printed)
+        else if (patches[i] >= 0 && !plan.options.as_printed)
             result[patches[i]] = spare_bit(static_cast<int>(i - bits.size()));
     return result;
 }
 
-Bits exclusive_or(Bits bits, const Bits& mask)
-{
-    for (std::size_t i = 0; i < bits.size(); ++i)
-        bits[i] ^= mask[i];
-    return bits;
-}
-
 /// Moves the vertices of the patches that lack margin; all but those that fulfil their condition `at_first`.
-void reshape(const PatchReading& reading, const PatchPlan& plan, const std::vector<int>& wanted, const Aim& aim,
+void reshape(const PatchReading& reading, const Plan& plan, const std::vector<int>& wanted, const Aim& aim,
              const Points& normals, bool at_first, Points& points)
 {
     for_chunks(static_cast<int>(wanted.size()), 1, [&](int k, int) {
@@ -242,21 +237,22 @@ void reshape(const PatchReading& reading, const PatchPlan& plan, const std::vect
             return;
         const bool squash = wanted[k] == 1;
         const double ratio = squash ? aim.ratio : aim.round;
-        const Points moves = plan.as_printed ? printed_change(shape, reading.band, vertices, ratio)
-                                             : least_change(shape, reading.band, normals, vertices, squash, ratio,
-                                                            squash ? aim.energy : aim.energy / 4);
+        const Points moves = plan.options.as_printed ? printed_change(shape, reading.band, vertices, ratio)
+                                                     : least_change(shape, reading.band, normals, vertices, squash,
+                                                                    ratio, squash ? aim.energy : aim.energy / 4);
         for (std::size_t i = 0; i < moves.size(); ++i)
             points[vertices[i]] += moves[i];
     });
 }
 
-double worst_margin(const PatchReading& reading, const std::vector<int>& wanted, const Aim& aim)
+/// Per patch that carries something, how far it is from wanting another round.
+std::vector<double> margins_of(const PatchReading& reading, const std::vector<int>& wanted, const Aim& aim)
 {
-    double worst = std::numeric_limits<double>::infinity();
+    std::vector<double> margins;
     for (std::size_t k = 0; k < wanted.size(); ++k)
         if (wanted[k] >= 0)
-            worst = std::min(worst, aim.margin(wanted[k], reading.shapes[k]));
-    return worst;
+            margins.push_back(aim.margin(wanted[k], reading.shapes[k]));
+    return margins;
 }
 
 constexpr int vertices_of_a_shape = 8; ///< at least
@@ -273,112 +269,91 @@ int poorest(const PatchReading& reading, const std::vector<int>& wanted)
 void check_patches(const PatchReading& reading, const std::vector<int>& bits, std::size_t wanted)
 {
     if (bits.size() < wanted)
-        throw Error("The mesh has " + std::to_string(bits.size()) + " patches for " + std::to_string(wanted) +
-                    " bits.");
+        throw DoesNotFit("The mesh has " + std::to_string(bits.size()) + " patches for " + std::to_string(wanted) +
+                             " bits.",
+                         static_cast<int>(bits.size()));
     for (std::size_t k = 0; k < bits.size(); ++k)
         if (bits[k] >= 0 && reading.shapes[k].samples < vertices_of_a_shape)
-            throw Error("A patch holds " + std::to_string(reading.shapes[k].samples) + " vertices, and " +
-                        std::to_string(vertices_of_a_shape) + " are the fewest that have a shape.");
+            throw DoesNotFit("A patch holds " + std::to_string(reading.shapes[k].samples) + " vertices, and " +
+                             std::to_string(vertices_of_a_shape) + " are the fewest that have a shape.");
 }
 
 } // namespace
 
-Points embed_spectral(const Cover& cover, const PatchPlan& plan, const Bits& mask, const EmbedOptions& options,
-                      const std::function<Points(const Points&)>& round, EmbedReport& result, const Progress& progress)
+Plan plan_spectral(const Key& key, const CarrierOptions& options)
+{
+    Plan plan;
+    plan.options = options;
+    plan.order = key.stream("patch-order").permutation(patch_count(options.bits, layers));
+    plan.trim = options.trim >= 0 ? options.trim : static_cast<double>(key.stream("trim").below(15001)) / 1e5;
+    return plan;
+}
+
+MarkFrame find_spectral(const Surface& surface, const Plan& /*plan*/)
+{
+    return checked_frame(surface);
+}
+
+Marking embed_spectral(const Cover& cover, const Plan& plan, const Bits& coded, const PlacementOptions& options,
+                       const Progress& progress)
 {
     const Surface& surface = cover.surface;
     const EdgeGraph graph = edge_graph(surface);
     const Points normals = vertex_normals(surface);
-    const Aim aim{result.strength, plan.as_printed ? 1 : 1.1, least_energy(surface)};
-    const Bits bits = exclusive_or(result.bits, mask);
-    PatchReading reading = read_with(surface, graph, plan, nullptr);
+    const Aim aim{options.strength, plan.options.as_printed ? 1 : 1.1, least_energy(surface)};
+    PatchReading reading = read_with(surface, graph, plan, checked_frame(surface));
     const Frame first = reading.frame;
-    check_patches(reading, bits_of_patches(reading, plan, bits), bits.size());
+    const auto wanted = [&] { return bits_of_patches(reading, plan, coded); };
+    check_patches(reading, wanted(), coded.size());
 
-    const auto count_vertices = [&] {
-        result.samples_min = poorest(reading, bits_of_patches(reading, plan, bits));
-        result.capacity = std::min(most_bits, options.bits * result.samples_min / vertices_of_a_shape);
-    };
+    Marking marking;
+    marking.samples_min = poorest(reading, wanted());
+    marking.capacity = std::min(most_carriers, plan.options.bits * marking.samples_min / vertices_of_a_shape);
+    marking.kept.points = surface.points;
+    const std::vector<double> before = margins_of(reading, wanted(), aim);
+    if (*std::min_element(before.begin(), before.end()) >= 0) // the mark is there already
+        return marking;
 
     Points points = surface.points;
-    Points best = points;
-    double best_margin = worst_margin(reading, bits_of_patches(reading, plan, bits), aim);
-    count_vertices();
-    if (best_margin < 0) // else the mark is there already
-        best_margin = -std::numeric_limits<double>::infinity();
-    for (int r = 1; r <= options.max_rounds && best_margin < 0; ++r) {
-        report(progress, 20 + 60 * (r - 1) / options.max_rounds, "Shaping patches");
-        reshape(reading, plan, bits_of_patches(reading, plan, bits), aim, normals, r == 1, points);
-        const int guarded = plan.as_printed ? 0 : guard(cover, points);
-        reading = read_with({round(points), surface.triangles}, graph, plan, &first);
-        const double margin = worst_margin(reading, bits_of_patches(reading, plan, bits), aim);
-        if (margin > best_margin) {
-            best_margin = margin;
-            best = points;
-            result.guarded_vertices = guarded;
-            count_vertices();
+    const auto propose = [&](int round) {
+        reshape(reading, plan, wanted(), aim, normals, round == 1, points);
+        Proposal proposal;
+        proposal.guarded_vertices = plan.options.as_printed ? 0 : guard(cover, points);
+        proposal.points = points;
+        return proposal;
+    };
+    const auto read = [&](const Points& stored, int) {
+        const Surface marked{stored, surface.triangles};
+        reading = read_with(marked, graph, plan, turned_like(checked_frame(marked), first));
+        return margins_of(reading, wanted(), aim);
+    };
+    LoopResult loop = closed_loop(options.max_rounds, rounded_to_float, propose, read, "Shaping patches", progress);
+    marking.kept = std::move(loop.kept);
+    marking.rounds = loop.rounds;
+    return marking;
+}
+
+Readings read_spectral(const Surface& surface, const Plan& plan, const MarkFrame& frame)
+{
+    PatchReading patches = read_patches(surface, plan, std::get<Frame>(frame));
+    const std::vector<AxisFlips> all = orientations(plan);
+    Readings readings;
+    readings.blind = blind_orientation(patches, plan);
+    for (const AxisFlips flips : all) {
+        Reading reading;
+        reading.weight = 1.0 / static_cast<double>(all.size());
+        reading.orientation = {flips.first ? '-' : '+', flips.second ? '-' : '+'};
+        reading.label = carrying_patches(patches, plan, flips);
+        reading.label.resize(plan.options.bits);
+        for (const int patch : reading.label) {
+            reading.soft.push_back(patch >= 0 ? patches.soft(patch) : 0);
+            reading.samples.push_back(patch >= 0 ? patches.shapes[patch].samples : 0);
+            reading.erased.push_back(patch < 0);
         }
-        result.rounds = r;
+        readings.ways.push_back(std::move(reading));
     }
-    return best;
-}
-
-namespace {
-
-Bits read_bits(const PatchReading& reading, const std::vector<int>& patches, const Bits& mask)
-{
-    Bits bits(mask.size());
-    for (std::size_t i = 0; i < mask.size(); ++i)
-        bits[i] = static_cast<std::uint8_t>((patches[i] >= 0 && reading.soft(patches[i]) > 0) ^ mask[i]);
-    return bits;
-}
-
-std::vector<int> bits_of_vertices(const PatchReading& reading, const std::vector<int>& patches, std::size_t bits)
-{
-    std::vector<int> bit_of_patch(reading.patches.count(), -1);
-    for (std::size_t i = 0; i < bits; ++i)
-        if (patches[i] >= 0)
-            bit_of_patch[patches[i]] = static_cast<int>(i);
-    std::vector<int> result = reading.patches.label;
-    for (int& label : result)
-        if (label >= 0)
-            label = bit_of_patch[label];
-    return result;
-}
-
-AxisFlips best_match(const PatchReading& reading, const PatchPlan& plan, const Bits& mask, const Bits& expected)
-{
-    AxisFlips best;
-    int most = -1;
-    for (const AxisFlips flips : orientations(plan)) {
-        const int matches = matching_bits(expected, read_bits(reading, carrying_patches(reading, plan, flips), mask));
-        if (matches > most) {
-            most = matches;
-            best = flips;
-        }
-    }
-    return best;
-}
-
-} // namespace
-
-int detect_spectral(const Surface& surface, const PatchPlan& plan, const Bits& mask, const DetectOptions& options,
-                    DetectReport& result)
-{
-    const int bits = static_cast<int>(mask.size());
-    const PatchReading reading = read_patches(surface, plan);
-    const AxisFlips flips = options.expected ? best_match(reading, plan, mask, pad_message(*options.expected, bits))
-                                             : blind_orientation(reading, plan, bits);
-    const std::vector<int> patches = carrying_patches(reading, plan, flips);
-    result.bits = read_bits(reading, patches, mask);
-    for (int i = 0; i < bits; ++i) {
-        const double soft = patches[i] >= 0 ? reading.soft(patches[i]) : 0;
-        result.soft.push_back(mask[i] ? -soft : soft);
-        result.samples.push_back(patches[i] >= 0 ? reading.shapes[patches[i]].samples : 0);
-    }
-    result.carrier_of_vertex = bits_of_vertices(reading, patches, mask.size());
-    result.orientation = {flips.first ? '-' : '+', flips.second ? '-' : '+'};
-    return static_cast<int>(orientations(plan).size());
+    readings.label_of_vertex = std::move(patches.patches.label);
+    return readings;
 }
 
 } // namespace vcg_ext

@@ -14,6 +14,16 @@ using SphereWeights = std::array<double, 3>;
 [[nodiscard]] Eigen::Matrix3d sphere_energy(const Cover& cover, const Points& current, int v,
                                             const SphereWeights& weights);
 
+/// The same with the neighbours still on the cover, where n^_j = n_j.
+[[nodiscard]] Eigen::Matrix3d sphere_energy(const Cover& cover, int v, const SphereWeights& weights);
+
+struct SphereOptions {
+    SphereWeights weights = {0.49, 0.49, 0.02}; ///< not negative, not all zero
+    /// Jacobi sweeps: the first sees the neighbours on the cover, the next where the one before put them. More than one
+    /// gains nothing: MRMS grows by 0 to 12 % (tests/benchmark/norm_methods).
+    int sweeps = 1;
+};
+
 /// Iterations of the sphere placement per moved vertex.
 struct SolverSummary {
     double mean_iterations = 0;
@@ -26,9 +36,6 @@ struct SphereSolution {
     int iterations = 0;
     bool converged = false;
 };
-
-/// The same with the neighbours still on the cover, where n^_j = n_j.
-[[nodiscard]] Eigen::Matrix3d sphere_energy(const Cover& cover, int v, const SphereWeights& weights);
 
 /// Minimises d^T A d over the sphere |v^ - centre| = norm by Levenberg-Marquardt in two angles ((5.31)-(5.37)), from
 /// Cho's point. \param energy A, symmetric and positive semi-definite  \pre v != centre

@@ -1,0 +1,31 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vcg_ext {
+
+/// One way of reading a surface: what its carriers say, by the number of the coded bit that they carry.
+struct Reading {
+    /// The share of all false alarms that this way may use. Those of all ways sum up to 1 at most, so the best of them,
+    /// its probability divided by its weight, is still a true bound.
+    double weight = 1;
+    /// How far the carrier stands on the side of 1 (positive) or 0, in standard errors: proportional to the
+    /// log-likelihood ratio; 0 for an erasure.
+    std::vector<double> soft;
+    std::vector<int> samples; ///< vertices in the carrier; empty where a carrier is no set of vertices
+    std::vector<char> erased; ///< 1 where the surface has nothing to say of this carrier
+    std::vector<int> label;   ///< the carrier's number in Readings::label_of_vertex, or -1
+    std::string orientation;  ///< how the body was held, where that is a choice; else empty
+};
+
+/// Everything that a method reads from a surface in one frame, before any secret mask is lifted.
+struct Readings {
+    std::vector<Reading> ways;        ///< at least one
+    int blind = 0;                    ///< the way that the carriers themselves speak for: chosen without the mask
+    std::vector<int> label_of_vertex; ///< -1: none; empty where a carrier is no set of vertices
+    std::optional<int> smoothing_rounds;
+    std::vector<std::string> warnings;
+};
+
+} // namespace vcg_ext

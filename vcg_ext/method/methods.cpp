@@ -1,0 +1,64 @@
+#include "methods.h"
+
+#include "../base/text.h"
+#include "geodesic.h"
+#include "norms.h"
+#include "spectral.h"
+
+namespace vcg_ext {
+
+namespace {
+
+StrengthRange alpha(Statistic statistic)
+{
+    return {0.1, 0, statistic == Statistic::Mean ? 0.45 : 0.3};
+}
+
+StrengthRange squash(Statistic /*statistic*/)
+{
+    return {15, 2, 1000};
+}
+
+} // namespace
+
+const std::vector<MethodRow>& all_methods()
+{
+    static const std::vector<MethodRow> methods = {
+        {Method::LM, "L-M", "vertex norms, the least visible", true, alpha, plan_norms, find_norms, read_norms,
+         embed_norms<Radial::Sphere>},
+        {Method::QSP, "QSP", "vertex norms, faster", true, alpha, plan_norms, find_norms, read_norms,
+         embed_norms<Radial::Selective>},
+        {Method::Cho, "Cho", "vertex norms, the fastest, more visible", true, alpha, plan_norms, find_norms, read_norms,
+         embed_norms<Radial::Straight>},
+        {Method::Geodesic, "Geodesic", "distances along the surface", true, alpha, plan_geodesic, find_geodesic,
+         read_geodesic, embed_geodesic},
+        {Method::Spectral, "Spectral", "survives noise and smoothing", false, squash, plan_spectral, find_spectral,
+         read_spectral, embed_spectral},
+    };
+    return methods;
+}
+
+const MethodRow& row_of(Method method)
+{
+    for (const MethodRow& row : all_methods())
+        if (row.method == method)
+            return row;
+    throw Error("There is no such method. Choose one of the list.");
+}
+
+const char* name(Method method)
+{
+    return row_of(method).name;
+}
+
+double checked_strength(const CarrierOptions& carriers, double strength)
+{
+    const StrengthRange range = row_of(carriers.method).strength(carriers.statistic);
+    const double used = strength == 0 ? range.usual : strength;
+    if (!(used > range.above && used <= range.most))
+        throw Error("Strength is " + text(used) + ", but for this method it must lie above " + text(range.above) +
+                    " and up to " + text(range.most) + ", or be 0 for the default of " + text(range.usual) + ".");
+    return used;
+}
+
+} // namespace vcg_ext

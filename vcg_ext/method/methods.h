@@ -1,0 +1,51 @@
+#pragma once
+#include "../base/progress.h"
+#include "../carrier/reading.h"
+#include "../payload/message.h"
+#include "../placement/cover.h"
+#include "plan.h"
+
+#include <string>
+#include <vector>
+
+namespace vcg_ext {
+
+struct StrengthRange {
+    double usual; ///< taken where the strength is 0
+    double above; ///< it must lie above this,
+    double most;  ///< and may reach this
+};
+
+/// One method, as a choice at each step. Embedding and detection share all of them but the last.
+struct MethodRow {
+    Method method;
+    const char* name;   ///< in dialogs, scripts and reports
+    const char* hint;   ///< for who must choose, half a line
+    bool has_statistic; ///< whether Statistic matters
+    StrengthRange (*strength)(Statistic statistic);
+
+    /// What the key decides before a mesh is seen.
+    Plan (*plan)(const Key& key, const CarrierOptions& options);
+
+    /// How the body lies, by itself. \throw Error where it defines no frame
+    MarkFrame (*find_frame)(const Surface& surface, const Plan& plan);
+
+    /// What the carriers say, in this frame.
+    Readings (*read)(const Surface& surface, const Plan& plan, const MarkFrame& frame);
+
+    /// Writes the coded bits, as many as carriers. `options.strength` is in range.
+    /// \throw DoesNotFit where the mesh cannot carry them
+    Marking (*embed)(const Cover& cover, const Plan& plan, const Bits& coded, const PlacementOptions& options,
+                     const Progress& progress);
+};
+
+/// All methods, in the order in which users choose.
+[[nodiscard]] const std::vector<MethodRow>& all_methods();
+
+/// \throw Error where there is no such method
+[[nodiscard]] const MethodRow& row_of(Method method);
+
+/// The strength as it will be used. \throw Error where it is out of the method's range
+[[nodiscard]] double checked_strength(const CarrierOptions& carriers, double strength);
+
+} // namespace vcg_ext

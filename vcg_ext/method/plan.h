@@ -1,0 +1,26 @@
+#pragma once
+#include "../carrier/shells.h"
+#include "../carrier/strips.h"
+#include "../geometry/moments.h"
+#include "../key/key.h"
+#include "marking.h"
+
+#include <variant>
+
+namespace vcg_ext {
+
+/// What both sides agree on before they see a mesh. The secret mask of the bits is no part of it, so nothing that reads
+/// by a plan can look at it.
+struct Plan {
+    CarrierOptions options;
+    double trim = 0; ///< as used
+    std::vector<int>
+        order;         ///< keyed: shell, strip or patch order[i] carries coded bit i; those after the last are spare
+    Points directions; ///< keyed: where to look for the source of geodesic distances
+};
+
+/// How a body is held, so that its carriers can be found: by the surface itself, or by another that it was registered
+/// to. Which kind, the method says.
+using MarkFrame = std::variant<ShellFrame, StripFrame, Frame>;
+
+} // namespace vcg_ext
