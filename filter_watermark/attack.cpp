@@ -3,6 +3,7 @@
 #include "shared_parameters.h"
 
 #include <vcg_ext/attack/attack.h>
+#include <vcg_ext/base/progress.h>
 
 namespace {
 

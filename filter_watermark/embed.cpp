@@ -1,3 +1,6 @@
+#include <vcg_ext/base/progress.h>
+#include <vcg_ext/carrier/statistic.h>
+
 #include "layer.h"
 #include "report.h"
 #include "shared_parameters.h"

@@ -2,7 +2,8 @@
 #include "host.h"
 
 #include <nlohmann/json.hpp>
-#include <vcg_ext/error.h>
+#include <vcg_ext/base/error.h>
+#include <vcg_ext/base/progress.h>
 
 #include <array>
 

@@ -1,3 +1,5 @@
+#include <vcg_ext/base/error.h>
+
 #include "filter_watermark.h"
 
 #include "report.h"

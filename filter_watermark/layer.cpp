@@ -1,7 +1,7 @@
 #include "layer.h"
 
-#include <vcg_ext/error.h>
-#include <vcg_ext/parallel.h>
+#include <vcg_ext/base/error.h>
+#include <vcg_ext/base/parallel.h>
 
 #include <algorithm>
 

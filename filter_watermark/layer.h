@@ -1,7 +1,7 @@
 #pragma once
 #include "host.h"
 
-#include <vcg_ext/surface.h>
+#include <vcg_ext/base/surface.h>
 
 /// The current layer. \throw vcg_ext::Error where the document has none
 MeshModel& current_layer_or_error(MeshDocument& document);

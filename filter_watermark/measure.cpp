@@ -2,6 +2,7 @@
 #include "report.h"
 #include "shared_parameters.h"
 
+#include <vcg_ext/base/progress.h>
 #include <vcg_ext/metric/distortion.h>
 
 namespace {

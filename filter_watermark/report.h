@@ -4,7 +4,7 @@
 #include <QSaveFile>
 #include <vcg_ext/attack/attack.h>
 #include <vcg_ext/metric/distortion.h>
-#include <vcg_ext/watermark.h>
+#include <vcg_ext/watermark/watermark.h>
 
 /// The results under the names that scripts rely on.
 Json to_json(const vcg_ext::EmbedReport& report);

@@ -1,3 +1,5 @@
+#include <vcg_ext/carrier/statistic.h>
+
 #include "shared_parameters.h"
 
 using vcg_ext::Method;

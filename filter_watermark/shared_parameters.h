@@ -1,7 +1,7 @@
 #pragma once
 #include "host.h"
 
-#include <vcg_ext/watermark.h>
+#include <vcg_ext/watermark/watermark.h>
 
 /// The names of all choices, for a RichEnum.
 template <class Choice>

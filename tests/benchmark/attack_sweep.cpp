@@ -4,7 +4,7 @@
 
 #include "support/load.h"
 #include "vcg_ext/attack/attack.h"
-#include "vcg_ext/error.h"
+#include "vcg_ext/base/error.h"
 #include "vcg_ext/metric/distortion.h"
 
 #include <algorithm>

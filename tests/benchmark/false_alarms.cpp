@@ -7,8 +7,10 @@
 // Usage: false_alarms [KEYS]    (900 without: more than 10,000 detections, each counted once)
 
 #include "support/load.h"
-#include "vcg_ext/metric/statistics.h"
-#include "vcg_ext/watermark.h"
+#include "vcg_ext/base/error.h"
+#include "vcg_ext/carrier/statistic.h"
+#include "vcg_ext/payload/binomial.h"
+#include "vcg_ext/watermark/watermark.h"
 
 #include <array>
 #include <cmath>

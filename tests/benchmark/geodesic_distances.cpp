@@ -4,6 +4,7 @@
 // MESH is one of the test meshes, such as bunny00.off.
 
 #include "support/load.h"
+#include "vcg_ext/base/error.h"
 #include "vcg_ext/carrier/strips.h"
 
 #include <cstdio>

@@ -8,7 +8,9 @@
 //   --every N  each Nth mesh only
 
 #include "support/load.h"
-#include "vcg_ext/watermark.h"
+#include "vcg_ext/base/error.h"
+#include "vcg_ext/carrier/statistic.h"
+#include "vcg_ext/watermark/watermark.h"
 
 #include <algorithm>
 #include <array>

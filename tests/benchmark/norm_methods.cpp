@@ -2,7 +2,8 @@
 // what more sweeps of the sphere placement would bring. Prints Markdown.
 
 #include "support/load.h"
-#include "vcg_ext/watermark.h"
+#include "vcg_ext/carrier/statistic.h"
+#include "vcg_ext/watermark/watermark.h"
 
 #include <array>
 #include <cstdio>

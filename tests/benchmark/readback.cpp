@@ -2,7 +2,9 @@
 // the rest: refused with a reason, or (never) lost. Four meshes, six methods, 20 keys, 32 to 256 bits.
 
 #include "support/load.h"
-#include "vcg_ext/watermark.h"
+#include "vcg_ext/base/error.h"
+#include "vcg_ext/carrier/statistic.h"
+#include "vcg_ext/watermark/watermark.h"
 
 #include <cstdio>
 #include <set>

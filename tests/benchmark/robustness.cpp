@@ -3,8 +3,10 @@
 
 #include "support/load.h"
 #include "vcg_ext/attack/attack.h"
-#include "vcg_ext/metric/statistics.h"
-#include "vcg_ext/watermark.h"
+#include "vcg_ext/carrier/statistic.h"
+#include "vcg_ext/key/stream.h"
+#include "vcg_ext/payload/binomial.h"
+#include "vcg_ext/watermark/watermark.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -73,7 +75,8 @@ std::vector<std::array<double, methods.size()>> ratios(const Surface& cover, Sta
             apply_attack(attacked, attack);
             DetectOptions detection;
             static_cast<CarrierOptions&>(detection) = embedding;
-            result[r][m] = detection_ratio(message, detect(attacked, key, detection).bits);
+            result[r][m] = static_cast<double>(matching_bits(message, detect(attacked, key, detection).bits)) /
+                           static_cast<double>(message.size());
         }
     }
     return result;

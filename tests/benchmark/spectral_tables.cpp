@@ -3,7 +3,9 @@
 
 #include "support/load.h"
 #include "vcg_ext/attack/attack.h"
-#include "vcg_ext/watermark.h"
+#include "vcg_ext/base/error.h"
+#include "vcg_ext/carrier/statistic.h"
+#include "vcg_ext/watermark/watermark.h"
 
 #include <algorithm>
 #include <chrono>

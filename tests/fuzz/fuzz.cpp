@@ -7,9 +7,12 @@
 
 #include "support/shapes.h"
 #include "vcg_ext/attack/attack.h"
+#include "vcg_ext/base/error.h"
+#include "vcg_ext/carrier/statistic.h"
+#include "vcg_ext/key/random.h"
+#include "vcg_ext/key/stream.h"
 #include "vcg_ext/metric/distortion.h"
-#include "vcg_ext/random.h"
-#include "vcg_ext/watermark.h"
+#include "vcg_ext/watermark/watermark.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,6 +1,6 @@
 #include "load.h"
 
-#include "vcg_ext/mesh.h"
+#include "vcg_ext/base/mesh.h"
 
 #include <filesystem>
 #include <stdexcept>

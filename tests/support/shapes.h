@@ -1,5 +1,5 @@
 #pragma once
-#include "vcg_ext/surface.h"
+#include "vcg_ext/base/surface.h"
 
 namespace shapes {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "vcg_ext/surface.h"
+#include "vcg_ext/base/surface.h"
 
 /// Whether every edge has two faces that run along it in opposite directions, and the faces at every vertex make one
 /// fan.

@@ -4,8 +4,10 @@
 #include "support/load.h"
 #include "support/shapes.h"
 #include "vcg_ext/attack/attack.h"
+#include "vcg_ext/base/error.h"
+#include "vcg_ext/carrier/statistic.h"
 #include "vcg_ext/metric/distortion.h"
-#include "vcg_ext/watermark.h"
+#include "vcg_ext/watermark/watermark.h"
 
 #include <cmath>
 #include <cstring>

@@ -1,4 +1,5 @@
 #include "vcg_ext/carrier/carriers.h"
+#include "vcg_ext/carrier/statistic.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

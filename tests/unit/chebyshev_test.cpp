@@ -1,10 +1,11 @@
+#include "vcg_ext/base/weld.h"
 #include "vcg_ext/geometry/chebyshev.h"
 
 #include "support/load.h"
+#include "vcg_ext/base/parallel.h"
 #include "vcg_ext/carrier/patches.h"
-#include "vcg_ext/parallel.h"
-#include "vcg_ext/spectral.h"
-#include "vcg_ext/watermark.h"
+#include "vcg_ext/method/spectral.h"
+#include "vcg_ext/watermark/watermark.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,9 +1,11 @@
+#include "vcg_ext/base/weld.h"
 #include "vcg_ext/geometry/closest.h"
+#include "vcg_ext/key/stream.h"
 
 #include "support/load.h"
 #include "support/shapes.h"
-#include "vcg_ext/error.h"
-#include "vcg_ext/random.h"
+#include "vcg_ext/base/error.h"
+#include "vcg_ext/key/random.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,13 @@
+#include "vcg_ext/base/error.h"
+#include "vcg_ext/base/progress.h"
 #include "vcg_ext/metric/distortion.h"
 
 #include "support/load.h"
 #include "support/shapes.h"
 #include "support/topology.h"
 #include "vcg_ext/attack/attack.h"
+#include "vcg_ext/base/parallel.h"
 #include "vcg_ext/metric/displacement.h"
-#include "vcg_ext/parallel.h"
 
 #include <gtest/gtest.h>
 

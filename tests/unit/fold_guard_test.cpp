@@ -1,5 +1,6 @@
 #include "support/load.h"
 #include "vcg_ext/key/key.h"
+#include "vcg_ext/key/stream.h"
 #include "vcg_ext/placement/fold_guard.h"
 
 #include <gtest/gtest.h>

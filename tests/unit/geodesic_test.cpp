@@ -1,7 +1,9 @@
 #include "support/load.h"
 #include "support/shapes.h"
 #include "support/topology.h"
-#include "vcg_ext/watermark.h"
+#include "vcg_ext/base/error.h"
+#include "vcg_ext/carrier/statistic.h"
+#include "vcg_ext/watermark/watermark.h"
 
 #include <algorithm>
 #include <cmath>

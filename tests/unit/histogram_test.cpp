@@ -1,4 +1,5 @@
-#include "vcg_ext/carrier/histogram.h"
+#include "vcg_ext/carrier/statistic.h"
+#include "vcg_ext/placement/histogram.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,4 +1,6 @@
 #include "vcg_ext/attack/isosurface.h"
+#include "vcg_ext/base/error.h"
+#include "vcg_ext/base/weld.h"
 
 #include "support/load.h"
 #include "support/shapes.h"

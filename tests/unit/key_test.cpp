@@ -1,5 +1,6 @@
-#include "vcg_ext/error.h"
+#include "vcg_ext/base/error.h"
 #include "vcg_ext/key/key.h"
+#include "vcg_ext/key/stream.h"
 
 #include <cstdlib>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Marks upon marks: the same again, and a second key's over the first.
 
 #include "support/load.h"
-#include "vcg_ext/watermark.h"
+#include "vcg_ext/watermark/watermark.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

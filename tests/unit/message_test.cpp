@@ -1,5 +1,5 @@
-#include "vcg_ext/error.h"
-#include "vcg_ext/key/message.h"
+#include "vcg_ext/base/error.h"
+#include "vcg_ext/payload/message.h"
 
 #include <gtest/gtest.h>
 

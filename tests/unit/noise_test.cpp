@@ -1,4 +1,6 @@
 #include "vcg_ext/attack/noise.h"
+#include "vcg_ext/base/weld.h"
+#include "vcg_ext/geometry/centre.h"
 
 #include "support/load.h"
 #include "support/shapes.h"

@@ -1,4 +1,4 @@
-#include "vcg_ext/parallel.h"
+#include "vcg_ext/base/parallel.h"
 
 #include <gtest/gtest.h>
 #include <stdexcept>

@@ -1,3 +1,4 @@
+#include "vcg_ext/base/weld.h"
 #include "vcg_ext/carrier/patches.h"
 
 #include "support/load.h"

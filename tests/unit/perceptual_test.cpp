@@ -1,11 +1,12 @@
+#include "vcg_ext/key/stream.h"
 #include "vcg_ext/metric/perceptual.h"
 
 #include "support/load.h"
 #include "support/shapes.h"
 #include "vcg_ext/attack/noise.h"
 #include "vcg_ext/attack/reorder.h"
+#include "vcg_ext/key/random.h"
 #include "vcg_ext/metric/distortion.h"
-#include "vcg_ext/random.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-#include "vcg_ext/random.h"
+#include "vcg_ext/key/random.h"
+#include "vcg_ext/key/stream.h"
 
 #include <gtest/gtest.h>
 

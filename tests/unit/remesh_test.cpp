@@ -1,4 +1,5 @@
 #include "vcg_ext/attack/remesh.h"
+#include "vcg_ext/base/error.h"
 
 #include "support/load.h"
 #include "support/shapes.h"

@@ -1,8 +1,9 @@
 #include "vcg_ext/attack/resample.h"
+#include "vcg_ext/base/progress.h"
 
 #include "support/load.h"
 #include "support/topology.h"
-#include "vcg_ext/error.h"
+#include "vcg_ext/base/error.h"
 #include "vcg_ext/geometry/closest.h"
 
 #include <gtest/gtest.h>

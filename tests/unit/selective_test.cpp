@@ -1,3 +1,4 @@
+#include "vcg_ext/placement/radial.h"
 #include "vcg_ext/placement/selective.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,8 @@
 #include "support/load.h"
+#include "vcg_ext/base/error.h"
+#include "vcg_ext/base/parallel.h"
 #include "vcg_ext/carrier/shells.h"
-#include "vcg_ext/parallel.h"
+#include "vcg_ext/geometry/centre.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

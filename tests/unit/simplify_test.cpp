@@ -1,4 +1,5 @@
 #include "vcg_ext/attack/simplify.h"
+#include "vcg_ext/base/weld.h"
 
 #include "support/load.h"
 #include "support/shapes.h"

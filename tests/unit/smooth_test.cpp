@@ -1,4 +1,5 @@
 #include "vcg_ext/attack/smooth.h"
+#include "vcg_ext/base/weld.h"
 
 #include "support/shapes.h"
 #include "support/topology.h"

@@ -1,9 +1,10 @@
-#include "vcg_ext/spectral.h"
+#include "vcg_ext/base/error.h"
+#include "vcg_ext/method/spectral.h"
 
 #include "support/load.h"
 #include "vcg_ext/attack/attack.h"
-#include "vcg_ext/metric/statistics.h"
-#include "vcg_ext/parallel.h"
+#include "vcg_ext/base/parallel.h"
+#include "vcg_ext/payload/binomial.h"
 
 #include <algorithm>
 #include <cmath>

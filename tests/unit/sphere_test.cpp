@@ -1,6 +1,8 @@
 #include "support/load.h"
-#include "vcg_ext/carrier/histogram.h"
 #include "vcg_ext/carrier/shells.h"
+#include "vcg_ext/carrier/statistic.h"
+#include "vcg_ext/placement/histogram.h"
+#include "vcg_ext/placement/radial.h"
 #include "vcg_ext/placement/sphere.h"
 
 #include <Eigen/Eigenvalues>

@@ -1,6 +1,8 @@
 #include "support/load.h"
 #include "support/shapes.h"
 #include "support/topology.h"
+#include "vcg_ext/base/error.h"
+#include "vcg_ext/carrier/statistic.h"
 #include "vcg_ext/carrier/strips.h"
 
 #include <cmath>

@@ -1,7 +1,8 @@
 #include "support/load.h"
 #include "support/topology.h"
-#include "vcg_ext/mesh.h"
-#include "vcg_ext/surface.h"
+#include "vcg_ext/base/mesh.h"
+#include "vcg_ext/base/surface.h"
+#include "vcg_ext/base/weld.h"
 
 #include <gtest/gtest.h>
 #include <set>

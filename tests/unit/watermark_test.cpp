@@ -1,8 +1,12 @@
 #include "support/load.h"
 #include "support/topology.h"
-#include "vcg_ext/parallel.h"
+#include "vcg_ext/base/error.h"
+#include "vcg_ext/base/parallel.h"
+#include "vcg_ext/base/progress.h"
+#include "vcg_ext/base/weld.h"
+#include "vcg_ext/carrier/statistic.h"
 #include "vcg_ext/placement/cover.h"
-#include "vcg_ext/watermark.h"
+#include "vcg_ext/watermark/watermark.h"
 
 #include <Eigen/Geometry>
 #include <cmath>

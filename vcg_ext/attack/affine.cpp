@@ -1,6 +1,7 @@
 #include "affine.h"
 
-#include "../random.h"
+#include "../key/random.h"
+#include "../key/stream.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>

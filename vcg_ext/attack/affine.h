@@ -1,5 +1,5 @@
 #pragma once
-#include "../surface.h"
+#include "../base/surface.h"
 
 #include <cstdint>
 

@@ -1,6 +1,8 @@
 #include "attack.h"
 
-#include "../check.h"
+#include "../base/check.h"
+#include "../base/progress.h"
+#include "../base/weld.h"
 #include "affine.h"
 #include "crop.h"
 #include "isosurface.h"

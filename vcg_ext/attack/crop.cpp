@@ -1,6 +1,7 @@
 #include "crop.h"
 
-#include "../random.h"
+#include "../key/random.h"
+#include "../key/stream.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "isosurface.h"
 
+#include "../base/mesh.h"
+#include "../base/parallel.h"
 #include "../geometry/closest.h"
-#include "../mesh.h"
-#include "../parallel.h"
 
 #include <algorithm>
 #include <cmath>

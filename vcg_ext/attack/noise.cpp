@@ -1,7 +1,10 @@
 #include "noise.h"
 
+#include "../base/weld.h"
 #include "../carrier/shells.h"
-#include "../random.h"
+#include "../geometry/centre.h"
+#include "../key/random.h"
+#include "../key/stream.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,8 @@
 #include "remesh.h"
 
-#include "../mesh.h"
+#include "../base/mesh.h"
+#include "../base/progress.h"
+#include "../base/weld.h"
 
 #include <algorithm>
 #include <cmath>

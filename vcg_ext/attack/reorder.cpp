@@ -1,6 +1,7 @@
 #include "reorder.h"
 
-#include "../random.h"
+#include "../key/random.h"
+#include "../key/stream.h"
 
 #include <algorithm>
 

@@ -1,5 +1,6 @@
 #include "resample.h"
 
+#include "../base/weld.h"
 #include "remesh.h"
 #include "simplify.h"
 

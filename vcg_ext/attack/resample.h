@@ -1,6 +1,7 @@
 #pragma once
-#include "../error.h"
-#include "../surface.h"
+#include "../base/error.h"
+#include "../base/progress.h"
+#include "../base/surface.h"
 
 namespace vcg_ext {
 

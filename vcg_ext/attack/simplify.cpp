@@ -1,6 +1,6 @@
 #include "simplify.h"
 
-#include "../mesh.h"
+#include "../base/mesh.h"
 
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized" // a placement of vcglib that is not used here, see below
 #include <vcg/complex/algorithms/local_optimization/tri_edge_collapse_quadric.h>

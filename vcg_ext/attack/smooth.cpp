@@ -1,7 +1,9 @@
 #include "smooth.h"
 
+#include "../base/parallel.h"
+#include "../base/progress.h"
+#include "../base/weld.h"
 #include "../geometry/neighbours.h"
-#include "../parallel.h"
 
 namespace vcg_ext {
 

@@ -1,6 +1,7 @@
 #include "subdivide.h"
 
-#include "../mesh.h"
+#include "../base/mesh.h"
+#include "../base/progress.h"
 
 #include <vcg/complex/algorithms/refine.h>
 

@@ -1,8 +1,6 @@
 #include "carriers.h"
 
-#include "../parallel.h"
-
-#include <cmath>
+#include "../base/parallel.h"
 
 namespace vcg_ext {
 
@@ -49,18 +47,6 @@ std::vector<double> statistics(const Carriers& carriers, Statistic statistic)
     for (int k = 0; k < carriers.count; ++k)
         sum[k] = count[k] > 0 ? sum[k] / count[k] : threshold(statistic);
     return sum;
-}
-
-double threshold(Statistic statistic)
-{
-    return statistic == Statistic::Mean ? 1.0 / 2 : 1.0 / 3;
-}
-
-double standard_error(Statistic statistic, int samples)
-{
-    // Var x = 1/12, Var (2x - 1)^2 = 1/5 - 1/9.
-    const double variance = statistic == Statistic::Mean ? 1.0 / 12 : 4.0 / 45;
-    return samples > 0 ? std::sqrt(variance / samples) : INFINITY;
 }
 
 } // namespace vcg_ext

@@ -1,5 +1,5 @@
 #pragma once
-#include "../watermark.h"
+#include "statistic.h"
 
 #include <vector>
 
@@ -30,11 +30,5 @@ struct Carriers {
 /// Per carrier the statistic that detection reads: the mean of x, threshold 1/2, or of (2x - 1)^2, threshold 1/3.
 /// A carrier without vertices has the threshold itself.
 [[nodiscard]] std::vector<double> statistics(const Carriers& carriers, Statistic statistic);
-
-/// The statistic of values that are uniform in [0, 1]: 1/2 or 1/3.
-[[nodiscard]] double threshold(Statistic statistic);
-
-/// The standard error of the statistic of `samples` values that are uniform in [0, 1].
-[[nodiscard]] double standard_error(Statistic statistic, int samples);
 
 } // namespace vcg_ext

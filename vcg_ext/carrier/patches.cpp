@@ -1,7 +1,7 @@
 #include "patches.h"
 
+#include "../base/parallel.h"
 #include "../geometry/taubin.h"
-#include "../parallel.h"
 
 #include <algorithm>
 #include <cmath>

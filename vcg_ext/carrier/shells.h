@@ -1,4 +1,5 @@
 #pragma once
+#include "../base/surface.h"
 #include "carriers.h"
 
 namespace vcg_ext {
@@ -11,10 +12,6 @@ struct Shells {
     double maximum = 0;
     Carriers carriers;
 };
-
-/// Area-weighted mean of the vertices (5.1).
-/// \throw Error where no face has an area
-[[nodiscard]] Point area_centre(const Points& points, const std::vector<Triangle>& triangles);
 
 /// |v - centre| of every vertex.
 [[nodiscard]] std::vector<double> norms(const Points& points, const Point& centre);

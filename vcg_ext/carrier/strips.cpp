@@ -1,7 +1,10 @@
 #include "strips.h"
 
+#include "../base/error.h"
 #include "../geometry/moments.h"
 #include "../geometry/normal_smoothing.h"
+#include "../key/stream.h"
+#include "statistic.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,8 @@
 #pragma once
 #include "../geometry/fast_marching.h"
+#include "../key/key.h"
 #include "carriers.h"
+#include "statistic.h"
 
 namespace vcg_ext {
 

@@ -1,7 +1,7 @@
 #include "closest.h"
 
-#include "../error.h"
-#include "../mesh.h"
+#include "../base/error.h"
+#include "../base/mesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "eigenbasis.h"
 
-#include "../error.h"
+#include "../base/error.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

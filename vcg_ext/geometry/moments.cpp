@@ -1,6 +1,6 @@
 #include "moments.h"
 
-#include "../parallel.h"
+#include "../base/parallel.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>

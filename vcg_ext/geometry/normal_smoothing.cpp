@@ -1,6 +1,6 @@
 #include "normal_smoothing.h"
 
-#include "../parallel.h"
+#include "../base/parallel.h"
 
 namespace vcg_ext {
 

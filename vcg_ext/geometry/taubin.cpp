@@ -1,6 +1,6 @@
 #include "taubin.h"
 
-#include "../parallel.h"
+#include "../base/parallel.h"
 
 namespace vcg_ext {
 

@@ -1,6 +1,6 @@
 #include "displacement.h"
 
-#include "../parallel.h"
+#include "../base/parallel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,12 @@
 #include "distortion.h"
 
-#include "../check.h"
+#include "../base/check.h"
+#include "../base/parallel.h"
+#include "../base/weld.h"
 #include "../geometry/closest.h"
 #include "../geometry/moments.h"
-#include "../parallel.h"
-#include "../random.h"
+#include "../key/random.h"
+#include "../key/stream.h"
 #include "perceptual.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #include "perceptual.h"
 
+#include "../base/mesh.h"
+#include "../base/parallel.h"
 #include "../geometry/closest.h"
 #include "../geometry/neighbours.h"
-#include "../mesh.h"
-#include "../parallel.h"
 
 #include <algorithm>
 #include <cmath>

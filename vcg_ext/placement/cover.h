@@ -1,6 +1,6 @@
 #pragma once
-#include "../parallel.h"
-#include "../surface.h"
+#include "../base/parallel.h"
+#include "../base/surface.h"
 
 #include <algorithm>
 
@@ -28,12 +28,6 @@ struct Cover {
     Points normals;            ///< of faces, unit; zero where a face has no area
     std::vector<double> areas; ///< of faces, doubled
 };
-
-/// Where (5.21) and Cho start: `v` moved along the ray from `centre` to the distance `norm`.
-[[nodiscard]] inline Point radial_point(const Point& v, const Point& centre, double norm)
-{
-    return centre + (v - centre) * (norm / (v - centre).norm());
-}
 
 /// Whether a face no longer lies as on the cover: turned by more than 60 degrees, or down to a twentieth of its area.
 ///

@@ -1,6 +1,6 @@
 #include "fold_guard.h"
 
-#include "../parallel.h"
+#include "../base/parallel.h"
 
 #include <numeric>
 

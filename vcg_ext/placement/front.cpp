@@ -1,6 +1,6 @@
 #include "front.h"
 
-#include "../parallel.h"
+#include "../base/parallel.h"
 #include "fold_guard.h"
 
 #include <algorithm>

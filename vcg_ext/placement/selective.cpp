@@ -1,5 +1,7 @@
 #include "selective.h"
 
+#include "radial.h"
+
 #include <cmath>
 #include <limits>
 #include <vcg/math/quadric.h>

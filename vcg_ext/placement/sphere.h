@@ -14,6 +14,13 @@ using SphereWeights = std::array<double, 3>;
 [[nodiscard]] Eigen::Matrix3d sphere_energy(const Cover& cover, const Points& current, int v,
                                             const SphereWeights& weights);
 
+/// Iterations of the sphere placement per moved vertex.
+struct SolverSummary {
+    double mean_iterations = 0;
+    int max_iterations = 0;
+    int not_converged = 0;
+};
+
 struct SphereSolution {
     Point point;
     int iterations = 0;

@@ -1,6 +1,6 @@
 #include "geodesic.h"
 
-#include "placement/front.h"
+#include "../placement/front.h"
 
 #include <cmath>
 #include <limits>

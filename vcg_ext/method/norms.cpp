@@ -1,10 +1,11 @@
 #include "norms.h"
 
-#include "carrier/shells.h"
-#include "parallel.h"
-#include "placement/fold_guard.h"
-#include "placement/selective.h"
-#include "placement/sphere.h"
+#include "../base/parallel.h"
+#include "../carrier/shells.h"
+#include "../placement/fold_guard.h"
+#include "../placement/radial.h"
+#include "../placement/selective.h"
+#include "../placement/sphere.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
-#include "carrier/strips.h"
-#include "placement/cover.h"
+#include "../carrier/strips.h"
+#include "../placement/cover.h"
+#include "../watermark/watermark.h"
 #include "scalar.h"
-#include "watermark.h"
 
 namespace vcg_ext {
 

@@ -1,5 +1,6 @@
 #pragma once
-#include "carriers.h"
+#include "../carrier/carriers.h"
+#include "../carrier/statistic.h"
 
 namespace vcg_ext {
 

@@ -1,6 +1,6 @@
 #include "message.h"
 
-#include "../error.h"
+#include "../base/error.h"
 
 #include <algorithm>
 

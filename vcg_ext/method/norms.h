@@ -1,7 +1,7 @@
 #pragma once
-#include "placement/cover.h"
+#include "../placement/cover.h"
+#include "../watermark/watermark.h"
 #include "scalar.h"
-#include "watermark.h"
 
 namespace vcg_ext {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "surface.h"
+#include "weld.h"
 
 namespace vcg_ext {
 

@@ -1,11 +1,12 @@
 #include "spectral.h"
 
-#include "carrier/two_means.h"
-#include "geometry/chebyshev.h"
-#include "geometry/eigenbasis.h"
-#include "metric/statistics.h"
-#include "parallel.h"
-#include "placement/fold_guard.h"
+#include "../base/error.h"
+#include "../base/parallel.h"
+#include "../carrier/two_means.h"
+#include "../geometry/chebyshev.h"
+#include "../geometry/eigenbasis.h"
+#include "../payload/binomial.h"
+#include "../placement/fold_guard.h"
 
 #include <algorithm>
 #include <cmath>

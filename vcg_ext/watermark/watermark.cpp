@@ -1,13 +1,17 @@
 #include "watermark.h"
 
-#include "carrier/shells.h"
-#include "check.h"
-#include "geodesic.h"
-#include "metric/displacement.h"
-#include "metric/statistics.h"
-#include "norms.h"
-#include "parallel.h"
-#include "spectral.h"
+#include "../base/check.h"
+#include "../base/parallel.h"
+#include "../base/progress.h"
+#include "../base/weld.h"
+#include "../carrier/shells.h"
+#include "../carrier/statistic.h"
+#include "../key/stream.h"
+#include "../method/geodesic.h"
+#include "../method/norms.h"
+#include "../method/spectral.h"
+#include "../metric/displacement.h"
+#include "../payload/binomial.h"
 
 #include <algorithm>
 #include <chrono>
@@ -343,11 +347,6 @@ TooManyBits::TooManyBits(const std::string& cause, int number)
                : " With this method and key this mesh carries not even one bit: use another method, or a finer mesh.")),
       carries(number)
 {
-}
-
-const char* name(Statistic statistic)
-{
-    return statistic == Statistic::Mean ? "Mean" : "Variance";
 }
 
 EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, const Progress& progress)

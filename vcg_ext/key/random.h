@@ -1,6 +1,6 @@
 #pragma once
-#include "key/key.h"
-#include "surface.h"
+#include "../base/surface.h"
+#include "stream.h"
 
 #include <cmath>
 #include <cstdint>

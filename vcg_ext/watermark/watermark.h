@@ -1,8 +1,12 @@
 #pragma once
-#include "error.h"
-#include "key/key.h"
-#include "key/message.h"
-#include "surface.h"
+#include "../base/error.h"
+#include "../base/progress.h"
+#include "../base/surface.h"
+#include "../carrier/statistic.h"
+#include "../key/key.h"
+#include "../payload/message.h"
+#include "../placement/front.h"
+#include "../placement/sphere.h"
 
 #include <map>
 #include <optional>
@@ -20,30 +24,12 @@ enum class Method {
     Spectral  ///< spectral coefficients of patches (thesis chapter 3)
 };
 
-enum class Statistic {
-    Mean,    ///< (4.8), (5.7): the carrier's mean against 1/2
-    Variance ///< (4.12), (5.11): the carrier's variance against 1/3
-};
-
 constexpr int most_bits = 1024; ///< carriers at most
 
 /// Which scalar the written file will hold. The blind self-check reads the coordinates as they will be stored.
 enum class Storage { Float, Double };
 
-/// How Method::Geodesic places its vertices.
-enum class FrontScheme {
-    /// All vertices at once along the direction that costs least distance from the surface; then the rest in the order
-    /// of
-    /// the front.
-    PredictCorrect,
-    /// The thesis' vertex placement scheme: one vertex after the other along the front's gradient (theorem 1), without
-    /// its
-    /// limit (4.21), which as printed or put right leaves more vertices short of their targets than it saves.
-    Sequential
-};
-
 [[nodiscard]] const char* name(Method method);
-[[nodiscard]] const char* name(Statistic statistic);
 
 /// What embedding and detection must agree on, besides the key.
 struct CarrierOptions {
@@ -66,21 +52,6 @@ struct EmbedOptions : CarrierOptions {
     /// More than one gains nothing: MRMS grows by 0 to 12 % (tests/benchmark/norm_methods).
     int sphere_sweeps = 1;
     FrontScheme front_scheme = FrontScheme::PredictCorrect; ///< for Method::Geodesic
-};
-
-/// How many vertices took how many moves to their targets (the thesis' Table 4.5); Method::Geodesic only.
-struct MoveCounts {
-    std::array<int, 4> moves{}; ///< 1, 2, 3, and 4 or more
-    int unconverged = 0;        ///< ended short of their targets, at the nearest point that folds no face
-
-    [[nodiscard]] int total() const { return moves[0] + moves[1] + moves[2] + moves[3] + unconverged; }
-};
-
-/// Iterations of Method::LM per moved vertex.
-struct SolverSummary {
-    double mean_iterations = 0;
-    int max_iterations = 0;
-    int not_converged = 0;
 };
 
 struct EmbedReport {

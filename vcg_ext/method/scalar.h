@@ -1,5 +1,8 @@
 #pragma once
-#include "carrier/carriers.h"
+#include "../base/progress.h"
+#include "../base/surface.h"
+#include "../carrier/carriers.h"
+#include "../carrier/statistic.h"
 
 #include <functional>
 

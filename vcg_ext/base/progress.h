@@ -1,15 +1,9 @@
 #pragma once
+#include "error.h"
+
 #include <functional>
-#include <stdexcept>
-#include <string>
 
 namespace vcg_ext {
-
-/// What the library throws at bad input: one text that names the cause and the cure.
-class Error : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
-};
 
 /// Thrown where the progress callback asked to stop. The caller's surface is as it was.
 class Cancelled : public Error {

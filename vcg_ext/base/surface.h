@@ -47,19 +47,4 @@ struct VertexFaces {
 /// Length of the bounding box's diagonal over the vertices that faces refer to; 0 where there are none.
 [[nodiscard]] double bounding_diagonal(const Surface& surface);
 
-/// A surface in which every position occurs once, and the way back.
-///
-/// STL files share no vertices and textured meshes repeat them along seams. Vertices at one position count once and
-/// move together, so both stay closed, and a mark survives the way from STL to PLY.
-struct Welded {
-    Surface surface; ///< sites (distinct positions of referenced vertices) and faces with three distinct ones
-    std::vector<int> site_of_vertex; ///< per vertex of the original: its site, or -1 where no such face refers to it
-};
-
-/// Welds by exact position (0 and -0 are one). Sites keep the order of their first vertices.
-[[nodiscard]] Welded weld(const Surface& surface);
-
-/// Positions of `original` with those of `sites` put in; vertices without a site keep theirs.
-[[nodiscard]] Points unweld(const Points& original, const std::vector<int>& site_of_vertex, const Points& sites);
-
 } // namespace vcg_ext

@@ -1,8 +1,9 @@
 #pragma once
-#include "carrier/patches.h"
-#include "placement/cover.h"
-#include "placement/patch_shape.h"
-#include "watermark.h"
+#include "../base/progress.h"
+#include "../carrier/patches.h"
+#include "../placement/cover.h"
+#include "../placement/patch_shape.h"
+#include "../watermark/watermark.h"
 
 #include <functional>
 

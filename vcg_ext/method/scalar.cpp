@@ -1,7 +1,9 @@
 #include "scalar.h"
 
-#include "carrier/histogram.h"
-#include "parallel.h"
+#include "../base/parallel.h"
+#include "../base/progress.h"
+#include "../carrier/statistic.h"
+#include "../placement/histogram.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,53 @@
+#include "surface.h"
+
+#include "parallel.h"
+
+#include <numeric>
+
+namespace vcg_ext {
+
+VertexFaces vertex_faces(int vertices, const std::vector<Triangle>& triangles)
+{
+    VertexFaces around;
+    around.first.assign(vertices + 1, 0);
+    for (const Triangle& t : triangles)
+        for (const int v : t)
+            ++around.first[v + 1];
+    std::partial_sum(around.first.begin(), around.first.end(), around.first.begin());
+    around.face.resize(3 * triangles.size());
+    std::vector<int> next(around.first.begin(), around.first.end() - 1);
+    for (std::size_t f = 0; f < triangles.size(); ++f)
+        for (const int v : triangles[f])
+            around.face[next[v]++] = static_cast<int>(f);
+    return around;
+}
+
+Points face_normals(const Points& points, const std::vector<Triangle>& triangles)
+{
+    Points normals(triangles.size());
+    for_each_index(static_cast<int>(triangles.size()), [&](int f) {
+        const Point n = scaled_normal(points, triangles[f]);
+        const double length = n.norm();
+        normals[f] = length > 0 ? Point(n / length) : Point(Point::Zero());
+    });
+    return normals;
+}
+
+Eigen::AlignedBox3d bounding_box(const Surface& surface)
+{
+    using Box = Eigen::AlignedBox3d;
+    return ordered_fold(
+        static_cast<int>(surface.triangles.size()), Box(),
+        [&](Box& box, int f) {
+            for (const int v : surface.triangles[f])
+                box.extend(surface.points[v]);
+        },
+        [](Box& box, const Box& part) { box.extend(part); });
+}
+
+double bounding_diagonal(const Surface& surface)
+{
+    return surface.triangles.empty() ? 0 : bounding_box(surface).diagonal().norm();
+}
+
+} // namespace vcg_ext
