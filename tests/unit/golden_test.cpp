@@ -1,6 +1,6 @@
 // The library reads the marks that were made before: the format of a mark has not changed. tests/golden/make.py
 #include "support/load.h"
-#include "vcg_ext/watermark.h"
+#include "vcg_ext/watermark/watermark.h"
 
 #include <fstream>
 #include <gtest/gtest.h>
