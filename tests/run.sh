@@ -5,6 +5,6 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 meshlab_scripts/setup.sh
 export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja} CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER-ccache}
-cmake -B build
+cmake -B build -DWITH_HOSTS=ON
 cmake --build build --parallel "$(nproc)" --target all filter_watermark-2025.07-float
 ctest --test-dir build --output-on-failure --parallel "$(nproc)" "$@"

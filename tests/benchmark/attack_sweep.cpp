@@ -1,6 +1,6 @@
 // Every attack on every mesh, each in a process of its own with limits on time and memory: a result, a refusal, or what
 // must not be. Takes the names of meshes, or runs all of them. Ends with an error where something crashed or did not
-// end.
+// end, or an attack was refused by all meshes.
 
 #include "support/load.h"
 #include "vcg_ext/attack/attack.h"
@@ -127,6 +127,7 @@ int main(int argc, char** argv)
     for (auto& [attack, count] : counts) {
         std::printf("%-12s %8d %8d %8d %8d %8d\n", name(attack), count[Outcome::Result], count[Outcome::Refusal],
                     count[Outcome::Wrong], count[Outcome::Crash], count[Outcome::TooLong]);
+        bad += count[Outcome::Result] == 0;
         bad += count[Outcome::Wrong] + count[Outcome::Crash] + count[Outcome::TooLong];
     }
     return bad > 0 || loaded == 0 ? 1 : 0;

@@ -3,9 +3,11 @@
 //
 // Each job runs in a process of its own with a limit of processor time, so that a crash or a hang is seen, and only
 // counted once; a busy machine makes no hang.
-// Usage: mesh_sweep [--stl] [--every N] [--seconds N] [--verbose]
+// Ends with an error where a method marked hardly any mesh, too.
+// Usage: mesh_sweep [--stl] [--every N] [--seconds N] [--marked N] [--verbose]
 //   --stl      each saved as a binary STL file, and opened from that
 //   --every N  each Nth mesh only
+//   --marked N meshes that each method must mark at least; 1 without
 
 #include "support/load.h"
 #include "vcg_ext/base/error.h"
@@ -38,6 +40,7 @@ struct Settings {
     bool verbose = false;
     int every = 1;
     int seconds = 120;
+    int marked = 1;
 };
 
 struct Job {
@@ -179,8 +182,12 @@ int main(int count, char** arguments)
             settings.every = std::max(1, number());
         else if (argument == "--seconds")
             settings.seconds = std::max(1, number());
+        else if (argument == "--marked")
+            settings.marked = std::max(1, number());
         else
-            return std::fprintf(stderr, "usage: mesh_sweep [--stl] [--every N] [--seconds N] [--verbose]\n"), 2;
+            return std::fprintf(stderr,
+                                "usage: mesh_sweep [--stl] [--every N] [--seconds N] [--marked N] [--verbose]\n"),
+                   2;
     }
 
     const Key key("mesh_sweep");
@@ -229,6 +236,10 @@ int main(int count, char** arguments)
         for (int outcome = 0; outcome < outcomes; ++outcome) {
             std::printf(" %8d", counts[j][outcome]);
             failures += outcome > refused ? counts[j][outcome] : 0;
+        }
+        if (counts[j][marked] < settings.marked) {
+            std::printf("  marked fewer than %d", settings.marked);
+            ++failures;
         }
         std::printf("\n");
     }

@@ -29,7 +29,11 @@ vcg_ext::Surface load_by(const std::string& path)
 
 vcg_ext::Surface load(const std::string& name)
 {
-    const std::string path = std::string(DATA_DIR) + "/" + name;
+    return load_file(std::string(DATA_DIR) + "/" + name);
+}
+
+vcg_ext::Surface load_file(const std::string& path)
+{
     const std::string ending = path.substr(path.size() - 4);
     if (ending == ".ply")
         return load_by<vcg::tri::io::ImporterPLY<vcg_ext::Mesh>>(path);

@@ -7,5 +7,8 @@
 /// are cut to triangles. \throw std::runtime_error where it cannot be read
 [[nodiscard]] vcg_ext::Surface load(const std::string& name);
 
+/// The same of any file.
+[[nodiscard]] vcg_ext::Surface load_file(const std::string& path);
+
 /// The surface as it comes back from a binary STL file: floats, and no vertex shared by two faces.
 [[nodiscard]] vcg_ext::Surface through_stl(const vcg_ext::Surface& surface);
