@@ -106,8 +106,8 @@ int main(int count, char** arguments)
                     }
                 }
                 const std::string title = std::string(marked ? "another key, " : "unmarked, ") + name(method) + " " +
-                                          (spectral ? "" : name(statistic));
-                print(title.c_str(), tally, spectral ? 4 : 1);
+                                          (row.has_statistic ? name(statistic) : "");
+                print(title.c_str(), tally, row.method == Method::Spectral ? 4 : 1);
                 std::fflush(stdout);
             }
 }

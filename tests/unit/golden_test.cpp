@@ -1,5 +1,6 @@
 // The library reads the marks that were made before: the format of a mark has not changed. tests/golden/make.py
 #include "support/load.h"
+#include "vcg_ext/method/methods.h"
 #include "vcg_ext/watermark/watermark.h"
 
 #include <fstream>
@@ -13,7 +14,7 @@ namespace {
 constexpr double tolerance = 1e-9;
 
 template <class Enum>
-Enum named(const std::string& text, std::initializer_list<Enum> values)
+Enum named(const std::string& text, const std::vector<Enum>& values)
 {
     for (const Enum value : values)
         if (text == name(value))
@@ -21,14 +22,21 @@ Enum named(const std::string& text, std::initializer_list<Enum> values)
     throw std::runtime_error("golden.json names '" + text + "', which does not exist");
 }
 
+std::vector<Method> all_the_methods()
+{
+    std::vector<Method> methods;
+    for (const MethodRow& row : all_methods())
+        methods.push_back(row.method);
+    return methods;
+}
+
 DetectOptions options_of(const nlohmann::json& mark)
 {
     DetectOptions options;
     const nlohmann::json& settings = mark.at("settings");
-    options.method =
-        named(settings.at("Method"), {Method::LM, Method::QSP, Method::Cho, Method::Geodesic, Method::Spectral});
-    options.statistic = named(settings.at("Statistic"), {Statistic::Mean, Statistic::Variance});
-    options.bits = settings.at("Bits");
+    options.carriers.method = named(settings.at("Method"), all_the_methods());
+    options.carriers.statistic = named(settings.at("Statistic"), std::vector{Statistic::Mean, Statistic::Variance});
+    options.carriers.bits = settings.at("Bits");
     options.expected = parse_message(mark.at("message").get<std::string>());
     return options;
 }
