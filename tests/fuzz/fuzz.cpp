@@ -1,6 +1,7 @@
-// Random meshes, broken in random ways, through random calls of the library; under the sanitizers (-DSANITIZE=
-// address,undefined), which end the program at the first fault. An Error is a good answer; then, and only then, the
-// surface must be as it was. Each case is made from one number, which is printed where something is wrong.
+// Random meshes, broken in random ways, through random calls of the library; under the sanitizers
+// (-DSANITIZE=address,undefined), which end the program at the first fault. An Error is a good answer; then, and only
+// then, the surface must be as it was. Each case is made from one number, which is printed where something is wrong,
+// whatever it is: a demand, a sanitizer's finding, a fault, an exception, or a case that hangs.
 // Usage: fuzz SECONDS [FIRST]     from case FIRST on, 0 without
 //        fuzz --cases COUNT       so many from case 0 on: the same on every machine
 //        fuzz --case NUMBER       that case alone
@@ -25,6 +26,16 @@
 #include <unistd.h>
 
 using namespace vcg_ext;
+
+// Sanitizers would end the program by _exit, and its case would not be told: they shall abort.
+#define OPTIONS_OF(sanitizer)                                                                                          \
+    extern "C" __attribute__((visibility("default"))) const char* __##sanitizer##_default_options()                    \
+    {                                                                                                                  \
+        return "abort_on_error=1";                                                                                     \
+    }
+OPTIONS_OF(asan)
+OPTIONS_OF(tsan)
+OPTIONS_OF(ubsan)
 
 namespace {
 
@@ -217,13 +228,25 @@ void run(std::uint64_t number, const Key& key)
     }
 }
 
-volatile std::uint64_t current = 0; // for the handler
+volatile std::uint64_t current = 0; // for the handlers
 
 void tell_case(int signal)
 {
-    std::printf("case %llu: %s\n", static_cast<unsigned long long>(current), signal == SIGALRM ? "hangs" : "fails");
-    std::fflush(stdout);
+    char line[64];
+    const int length = std::snprintf(line, sizeof line, "case %llu: %s\n", static_cast<unsigned long long>(current),
+                                     signal == SIGALRM ? "hangs" : "fails");
+    [[maybe_unused]] const auto written = write(STDOUT_FILENO, line, static_cast<std::size_t>(length));
     _exit(1);
+}
+
+void tell_case_at_the_end()
+{
+    std::signal(SIGALRM, tell_case);
+    std::signal(SIGABRT, tell_case);
+#ifndef __SANITIZE_ADDRESS__ // which describes a fault first, and then aborts
+    for (const int fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL})
+        std::signal(fault, tell_case);
+#endif
 }
 
 } // namespace
@@ -232,8 +255,7 @@ int main(int count, char** arguments)
 {
     if (count < 2)
         return std::fprintf(stderr, "usage: fuzz SECONDS [FIRST], fuzz --cases COUNT, or fuzz --case NUMBER\n"), 2;
-    std::signal(SIGALRM, tell_case);
-    std::signal(SIGABRT, tell_case);
+    tell_case_at_the_end();
     const Key key("fuzz");
     const bool counted = std::string(arguments[1]) == "--cases" && count > 2;
     const bool one = std::string(arguments[1]) == "--case" && count > 2;
