@@ -1,0 +1,26 @@
+#include "text.h"
+
+#include <cmath>
+#include <limits>
+#include <locale>
+#include <sstream>
+
+namespace vcg_ext {
+
+std::string text(double number)
+{
+    std::stringstream stream;
+    stream.imbue(std::locale::classic());
+    for (int digits = 6;; ++digits) {
+        stream.str({});
+        stream.clear();
+        stream.precision(digits);
+        stream << number;
+        double back = 0;
+        if (digits == std::numeric_limits<double>::max_digits10 || !std::isfinite(number) ||
+            (stream >> back && back == number))
+            return stream.str();
+    }
+}
+
+} // namespace vcg_ext
