@@ -203,8 +203,9 @@ void for_chunks(int count, int chunk, const Progress& progress, const char* phas
 {
     constexpr int steps = 20;
     constexpr int least = 8; // pieces a step, so that all cores have some
+    constexpr int most = 64; // so that the next report comes soon
     const int pieces = chunk_count(count, chunk);
-    const int step = std::max(least, chunk_count(pieces, steps));
+    const int step = std::clamp(chunk_count(pieces, steps), least, most);
     for (int first = 0; first < pieces; first += step) {
         report(progress, static_cast<int>(100.0 * first / pieces), phase);
         const int begin = first * chunk;

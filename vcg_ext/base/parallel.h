@@ -27,7 +27,7 @@ void set_threads(int count);
 /// \throw what `work` threw, of several pieces the lowest's; the others are done nevertheless
 void for_chunks(int count, int chunk, const std::function<void(int begin, int end)>& work);
 
-/// The same in up to 20 steps. The calling thread tells `progress`, from 0 percent on, before each of them.
+/// The same in some 20 steps, more where pieces are many. The calling thread tells `progress`, from 0 percent on, before each of them.
 ///
 /// \throw Cancelled where `progress` returned false: the pieces of later steps are not done
 void for_chunks(int count, int chunk, const Progress& progress, const char* phase,
