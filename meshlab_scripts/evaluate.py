@@ -11,8 +11,9 @@ from pathlib import Path
 
 from evaluation.jobs import Site
 from evaluation.plugin import load
-from evaluation.protocol import read_protocol
+from evaluation.protocol import ProtocolError, read_protocol
 from evaluation.report import write_report
+from evaluation.results import NoResults
 from evaluation.schedule import run_missing
 from evaluation.store import Store
 
@@ -40,7 +41,10 @@ def main() -> None:
     arguments = parser.parse_args()
 
     named = PROTOCOLS / f"{arguments.protocol}.toml"
-    protocol = read_protocol(named if named.exists() else Path(arguments.protocol))
+    try:
+        protocol = read_protocol(named if named.exists() else Path(arguments.protocol))
+    except ProtocolError as error:
+        parser.error(str(error))
     protocol.keys = arguments.keys or protocol.keys
     protocol.meshes = arguments.mesh or protocol.meshes
     site = Site(arguments.meshes.resolve(), arguments.plugin.resolve(), (arguments.work / "marked").resolve())
@@ -53,8 +57,12 @@ def main() -> None:
     if not arguments.report_only:
         run_missing([case.job for case in cases], site, store, arguments.scheduler)
     report = arguments.report or arguments.work / protocol.name
-    write_report(protocol, cases, site, store, report)
-    store.close()
+    try:
+        write_report(protocol, cases, site, store, report)
+    except NoResults as error:
+        parser.error(str(error))
+    finally:
+        store.close()
     print(f"{report / 'report.md'}")
 
 

@@ -8,6 +8,7 @@
 #include "vcg_ext/base/weld.h"
 #include "vcg_ext/carrier/statistic.h"
 #include "vcg_ext/carrier/strips.h"
+#include "vcg_ext/geometry/normals.h"
 #include "vcg_ext/key/stream.h"
 #include "vcg_ext/metric/distortion.h"
 #include "vcg_ext/watermark/watermark.h"

@@ -29,8 +29,8 @@ TEST(Statistics, OfAUniformCarrierAreTheThresholds)
     EXPECT_NEAR(statistics(carriers, Statistic::Variance)[0], 1.0 / 3, 1e-8);
 }
 
-// The variance over many carriers of the statistic is the square of the standard error, here over all triples of a
-// grid.
+// The variance over many carriers of the statistic is the square of the standard error, here over all triples
+// of a grid.
 TEST(StandardError, IsTheSpreadOfTheStatistic)
 {
     constexpr int grid = 40;

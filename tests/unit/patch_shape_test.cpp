@@ -105,8 +105,8 @@ TEST(PatchShape, WithoutNormalsItIsTheClosedForm)
 
 TEST(PatchShape, IsTheLeastAmongChangesOfTheSameRatio)
 {
-    // Any other move to the same ratio costs more: here scalings of the axes, of which (3.21) and the closed form are
-    // two.
+    // Any other move to the same ratio costs more: here scalings of the axes, of which (3.21) and the closed
+    // form are two.
     const Cloud cloud(300);
     const PatchShape shape = cloud.shape();
     const double ratio = 15;

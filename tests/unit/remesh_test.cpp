@@ -6,6 +6,7 @@
 #include "support/topology.h"
 #include "vcg_ext/geometry/closest.h"
 #include "vcg_ext/geometry/moments.h"
+#include "vcg_ext/geometry/size.h"
 
 #include <gtest/gtest.h>
 

@@ -11,8 +11,8 @@ using namespace vcg_ext;
 
 namespace {
 
-// A pyramid over the unit square, worked out by hand: sum A(v) v over sum A(v) with A(v) the areas of the faces around
-// v.
+// A pyramid over the unit square, worked out by hand: sum A(v) v over sum A(v) with A(v) the areas of the
+// faces around v.
 TEST(AreaCentre, OfAPyramid)
 {
     const Surface pyramid{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}},

@@ -5,6 +5,7 @@
 #include "vcg_ext/base/progress.h"
 #include "vcg_ext/base/weld.h"
 #include "vcg_ext/carrier/statistic.h"
+#include "vcg_ext/geometry/normals.h"
 #include "vcg_ext/placement/cover.h"
 #include "vcg_ext/watermark/watermark.h"
 

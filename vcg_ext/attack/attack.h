@@ -63,8 +63,8 @@ struct AttackReport {
     std::vector<std::string> warnings;
 };
 
-/// Does to `surface` what a user or an adversary might. Same input, same result: on any machine, at any number of
-/// threads.
+/// Does to `surface` what a user or an adversary might. Same input, same result: on any machine, at any
+/// number of threads.
 ///
 /// Vertices at one position move together (see weld()), so a mesh without shared vertices stays closed. Attacks that
 /// rebuild the mesh weld it first, and give back a welded one.

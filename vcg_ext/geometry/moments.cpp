@@ -130,8 +130,7 @@ bool is_closed_and_oriented(const Surface& surface)
 {
     const int vertices = static_cast<int>(surface.points.size());
     const VertexFaces around = vertex_faces(vertices, surface.triangles);
-    std::vector<std::pair<int, int>>
-        uses; // of the edges to vertices with a higher number: that vertex, +1 out or -1 in
+    std::vector<std::pair<int, int>> uses; // of the edges to vertices of a higher number: that one, +1 out or -1 in
     for (int v = 0; v < vertices; ++v) {
         uses.clear();
         for (const int* f = around.begin(v); f != around.end(v); ++f) {

@@ -42,7 +42,8 @@ public:
         }
     }
 
-    /// d of one vertex (Sherman-Morrison). \param b each below `softness`
+    /// d of one vertex (Sherman-Morrison).
+    /// \param b each below `softness`
     [[nodiscard]] Point displacement(std::size_t i, const Point& b) const
     {
         const Point c = (softness - b.array()).inverse();
