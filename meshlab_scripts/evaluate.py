@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Evaluates the watermarks: a protocol's meshes x methods x keys x attacks, through pymeshlab and the plugin.
 
 Writes CSV, tables beside the thesis' figures, plots and one report.md. A stopped run goes on where it was.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """False positives, false negatives and the equal error rate of a detection ratio as the score."""
 
 import math

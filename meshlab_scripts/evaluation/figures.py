@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Plots in one style, legible in black and white: a marker and a line style for each line, bars for the spread."""
 
 from pathlib import Path

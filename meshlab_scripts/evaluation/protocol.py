@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A protocol file: experiments, each a grid of jobs, and the tables and figures that show them.
 
 title, about, meshes, keys, trim

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What a run leaves behind: results.csv, times.csv, errors.csv, tables, figures, and report.md with all in order."""
 
 import platform

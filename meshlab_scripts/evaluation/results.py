@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The results of a protocol as one tidy frame: a row for each case, sorted, the job's fields and then its results."""
 
 from dataclasses import asdict

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Markdown tables: ours with the standard deviation over the keys, and the thesis' figure beside it in brackets."""
 
 import math

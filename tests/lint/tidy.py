@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """clang-tidy over all our C++, headers too; what was found clean is not read again until it changes.
 
     build/venv/bin/python tests/lint/tidy.py [FOLDER OR FILE...]

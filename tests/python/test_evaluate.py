@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """evaluate.py: the smoke protocol from start to report, killed and resumed, and with jobs that fail."""
 
 import math

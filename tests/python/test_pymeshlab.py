@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The filters in pymeshlab: what they return, what they refuse, and what they leave alone."""
 
 import json

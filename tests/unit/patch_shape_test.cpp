@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vcg_ext/placement/patch_shape.h"
 
 #include <Eigen/Geometry>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../base/error.h"
 #include "../base/progress.h"
@@ -60,7 +61,6 @@ struct AttackReport {
     int vertices = 0;            ///< afterwards
     int faces = 0;               ///< afterwards
     bool positions_only = false; ///< vertices and faces kept their number and order: writing positions back is enough
-    std::vector<std::string> warnings;
 };
 
 /// Does to `surface` what a user or an adversary might. Same input, same result: on any machine, at any

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "patches.h"
 
 #include "../base/error.h"
@@ -91,7 +92,7 @@ void visit_parts(const Points& points, const Triangle& t, const Visit& visit)
 {
     constexpr int n = 4; // parts an edge
     const double area = scaled_normal(points, t).norm() / 2 / (n * n);
-    const Point origin = points[t[0]];
+    const Point& origin = points[t[0]];
     const Point a = (points[t[1]] - origin) / n;
     const Point b = (points[t[2]] - origin) / n;
     for (int i = 0; i < n; ++i)

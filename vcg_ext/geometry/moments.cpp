@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "moments.h"
 
 #include "../base/parallel.h"
@@ -164,7 +165,7 @@ double signed_volume(const Surface& surface, const Point& centre)
 Frame principal_frame(const Surface& surface)
 {
     if (is_closed_and_oriented(surface)) {
-        const Frame frame = frame_of({surface, true});
+        Frame frame = frame_of({surface, true});
         if (frame.measure != 0)
             return frame;
     }
