@@ -1,0 +1,573 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "waves.h"
+
+#include "../base/error.h"
+#include "../geometry/turns.h"
+#include "../geometry/wave_sums.h"
+#include "../payload/sum_tails.h"
+#include "../base/parallel.h"
+#include "../key/random.h"
+#include "wave_flows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vcg_ext {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double shortest = 10; ///< |q|: waves of .63 r, some .14 of a diagonal
+constexpr double longest = 20;
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// Body turned by half a turn about one of its axes, or not at all: signs of the coordinates.
+Point signs_of(int orientation)
+{
+    const Point signs[4] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+    return signs[orientation];
+}
+
+/// log(exp(a) + exp(b))
+double log_add(double a, double b)
+{
+    const double high = std::max(a, b);
+    return high == -never ? high : high + std::log1p(std::exp(std::min(a, b) - high));
+}
+
+/// Transforms at the waves of all orientations, one after the other.
+std::vector<std::complex<double>> transform_of(const WaveBody& body, const Points& points, const WavePlan& plan,
+                                               int orientations)
+{
+    Points waves;
+    for (int o = 0; o < orientations; ++o)
+        for (const Point& q : plan.vectors)
+            waves.emplace_back(q.cwiseProduct(signs_of(o)));
+    std::vector<std::complex<double>> transform = solid_transform(points, body.topology.triangles, waves);
+    if (body.frame.measure < 0) // inside out
+        for (std::complex<double>& value : transform)
+            value = -value;
+    return transform;
+}
+
+/// Canonical coordinates of `points`, which are canonical ones of the body, displaced; none where they bound nothing.
+Points canonical_again(const WaveBody& body, const Points& points)
+{
+    Frame frame = solid_frame(points, body.topology.triangles);
+    if (frame.measure * body.frame.measure <= 0)
+        return {};
+    align_axes(frame, Eigen::Matrix3d::Identity()); // the same way round as before
+    const double r = ball_radius(frame);
+    Points result(points.size());
+    for_each_index(static_cast<int>(points.size()),
+                   [&](int v) { result[v] = frame.axes.transpose() * (points[v] - frame.centre) / r; });
+    return result;
+}
+
+/// Derivative of the transform where the surface moves along its normals by `flow` (RMS 1).
+std::vector<std::complex<double>> derivative(const WaveBody& body, const Points& normals,
+                                             const std::vector<double>& flow,
+                                             const std::vector<std::complex<double>>& at_rest, const WavePlan& plan,
+                                             int orientations)
+{
+    constexpr double step = 2e-4;
+    Points points = body.points;
+    for_each_index(body.topology.sites, [&](int v) { points[v] += step * flow[v] * normals[v]; });
+    place_apexes(body.topology, points);
+    points = canonical_again(body, points);
+    if (points.empty())
+        return std::vector<std::complex<double>>(at_rest.size());
+    std::vector<std::complex<double>> transform = transform_of(body, points, plan, orientations);
+    for (std::size_t i = 0; i < transform.size(); ++i)
+        transform[i] = (transform[i] - at_rest[i]) / step;
+    return transform;
+}
+
+constexpr double smoothing_lambda = 0.5;
+constexpr int series_terms = 6;
+constexpr double most_undone = 8; ///< lambda k: 16 rounds of one half
+constexpr int nodes = 8;          ///< between which phases are interpolated over lambda k
+
+/// Chebyshev's nodes on [0, most_undone].
+double node(int i)
+{
+    return most_undone / 2 * (1 - cosine(pi * (2 * i + 1) / (2.0 * nodes)));
+}
+
+/// Lagrange's weights of the nodes at `s`: phases are nearly a polynomial of lambda k.
+std::array<double, nodes> interpolation(double s)
+{
+    std::array<double, nodes> weights{};
+    for (int i = 0; i < nodes; ++i) {
+        weights[i] = 1;
+        for (int j = 0; j < nodes; ++j)
+            if (j != i)
+                weights[i] *= (s - node(j)) / (node(i) - node(j));
+    }
+    return weights;
+}
+
+/// Transforms of the body with smoothing undone, at the nodes; none where that tears it.
+std::vector<std::vector<std::complex<double>>> transforms_before_smoothing(const WaveBody& body, const WavePlan& plan,
+                                                                           int orientations)
+{
+    const std::vector<Points> powers = umbrella_powers(body, series_terms);
+    std::vector<std::vector<std::complex<double>>> result;
+    for (int i = 0; i < nodes; ++i) {
+        const Points points = canonical_again(body, before_smoothing(body, powers, smoothing_lambda, node(i)));
+        if (points.empty())
+            return {};
+        result.push_back(transform_of(body, points, plan, orientations));
+    }
+    return result;
+}
+
+double rms(const std::vector<double>& x)
+{
+    double sum = 0;
+    for (const double value : x)
+        sum += value * value;
+    return std::sqrt(sum / std::max<std::size_t>(1, x.size()));
+}
+
+/// Scales to an RMS of half a period; nothing where the column is zero.
+void to_half_a_period(std::vector<double>& column)
+{
+    const double size = rms(column);
+    for (double& x : column)
+        x *= size > 0 ? 0.5 / size : 0;
+}
+
+/// One row of a view's grid, u by u, as complex numbers exp(2 pi i y_k) that turn by a step of u.
+class RowScan {
+public:
+    static constexpr int lanes = 8;
+
+    RowScan(const WaveReading& reading, const WaveWay& start, double step)
+        : padded_((reading.views[start.view].phase.size() + lanes - 1) / lanes * lanes), c_(padded_, 0), s_(padded_, 0),
+          turn_c_(padded_, 0), turn_s_(padded_, 0)
+    {
+        const WaveView& view = reading.views[start.view];
+        const std::vector<double>& along = start.undone < 0 ? view.relax : view.bend;
+        const std::vector<double> y = wave_phases(reading, start);
+        for (std::size_t k = 0; k < y.size(); ++k) {
+            sine_cosine(2 * pi * y[k], s_[k], c_[k]);
+            sine_cosine(2 * pi * step * along[k], turn_s_[k], turn_c_[k]);
+        }
+    }
+
+    /// Sum of cos^2, and of `signs[k]` cos; then a step of u.
+    void take(const double* signs, double& squares, double& matched)
+    {
+        double a[lanes] = {};
+        double b[lanes] = {};
+        double* __restrict c = c_.data();
+        double* __restrict s = s_.data();
+        const double* __restrict tc = turn_c_.data();
+        const double* __restrict ts = turn_s_.data();
+        for (std::size_t k = 0; k < padded_; k += lanes)
+            for (int j = 0; j < lanes; ++j) {
+                const double re = c[k + j];
+                const double im = s[k + j];
+                a[j] += re * re;
+                b[j] += signs[k + j] * re;
+                c[k + j] = re * tc[k + j] - im * ts[k + j];
+                s[k + j] = re * ts[k + j] + im * tc[k + j];
+            }
+        squares = ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7]));
+        matched = ((b[0] + b[1]) + (b[2] + b[3])) + ((b[4] + b[5]) + (b[6] + b[7]));
+    }
+
+    [[nodiscard]] std::size_t padded() const { return padded_; }
+
+private:
+    std::size_t padded_;
+    std::vector<double> c_, s_, turn_c_, turn_s_;
+};
+
+/// Calls `visit(part, way, S2, S1)` for all ways, S2 = sum of cos 4 pi y and S1 = sum of signs cos 2 pi y; one part per
+/// row, and so the same at any number of threads.
+template <class Part, class Visit>
+std::vector<Part> for_all_ways(const WaveReading& reading, const std::vector<double>& signs, const Visit& visit)
+{
+    const WaveGrid& grid = *reading.grid;
+    const int rows = static_cast<int>(grid.rows.size());
+    const int views = static_cast<int>(reading.views.size());
+    std::vector<Part> parts(static_cast<std::size_t>(rows) * views);
+    for_chunks(rows * views, 16, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i) {
+            const WaveView& view = reading.views[i / rows];
+            const WaveGrid::Row& row = grid.rows[i % rows];
+            if (row.undone >= 0 && view.undone.empty())
+                continue;
+            WaveWay way{i / rows, row.undone, row.t, 0, 0};
+            double& along = row.undone < 0 ? way.u : way.t;
+            along = row.first;
+            RowScan scan(reading, way, grid.step);
+            std::vector<double> padded(signs);
+            padded.resize(scan.padded(), 0);
+            const double n = static_cast<double>(view.phase.size());
+            for (std::size_t j = 0; j < row.log_weight.size(); ++j) {
+                double squares, matched;
+                scan.take(padded.data(), squares, matched);
+                along = row.first + static_cast<double>(j) * grid.step;
+                way.log_weight = view.log_weight + row.log_weight[j];
+                visit(parts[i], way, 2 * squares - n, matched);
+            }
+        }
+    });
+    return parts;
+}
+
+WaveGrid make_grid()
+{
+    constexpr double at_rest = 0.5;
+    constexpr double shifted = 0.3;
+    constexpr double undone = 0.2;
+    WaveGrid grid;
+    grid.step = 0.2;
+    const auto take_logarithms = [&](std::size_t first_row, double share) {
+        double sum = 0;
+        for (std::size_t i = first_row; i < grid.rows.size(); ++i)
+            for (const double weight : grid.rows[i].log_weight)
+                sum += weight;
+        for (std::size_t i = first_row; i < grid.rows.size(); ++i)
+            for (double& weight : grid.rows[i].log_weight)
+                weight = std::log(weight == 0 ? at_rest : share * weight / sum);
+    };
+    for (int i = -60; i <= 500; ++i) {
+        WaveGrid::Row row;
+        row.t = i / 10.0;
+        const double reach = std::min(6.0, 1 + 1.5 * std::abs(row.t));
+        const int most = static_cast<int>(reach / grid.step + 1e-9);
+        row.first = -most * grid.step;
+        for (int j = -most; j <= most; ++j) {
+            const double u = j * grid.step;
+            row.log_weight.push_back(i == 0 && j == 0 ? 0
+                                                      : 1 / (1 + std::pow(std::abs(row.t) / 1.5, 1.5)) / (1 + u * u));
+        }
+        grid.rows.push_back(row);
+    }
+    take_logarithms(0, shifted);
+    const std::size_t first = grid.rows.size();
+    for (int i = 1; i <= 160; ++i) {
+        WaveGrid::Row row;
+        row.undone = i - 1;
+        grid.undone.push_back(i * most_undone / 160);
+        row.first = -2 * grid.step;
+        for (int j = -2; j <= 2; ++j)
+            row.log_weight.push_back((j == 0 ? 1 : 0.25) / (1 + grid.undone.back()));
+        grid.rows.push_back(row);
+    }
+    take_logarithms(first, undone);
+    return grid;
+}
+
+} // namespace
+
+WavePlan wave_plan(const Key& key, int count)
+{
+    WavePlan plan;
+    Stream vectors = key.stream("wave-vectors");
+    while (plan.count() < count) {
+        Point q;
+        for (double& x : q)
+            x = longest * (2 * uniform(vectors) - 1);
+        const double squared = q.squaredNorm();
+        if (squared >= shortest * shortest && squared <= longest * longest)
+            plan.vectors.push_back(q);
+    }
+    Stream phases = key.stream("wave-phases");
+    Stream dithers = key.stream("wave-dithers");
+    for (int k = 0; k < count; ++k) {
+        plan.phases.push_back(2 * pi * uniform(phases));
+        plan.dithers.push_back(uniform(dithers));
+    }
+    return plan;
+}
+
+WaveBody wave_body(const Surface& surface)
+{
+    WaveBody body;
+    body.topology = solid_topology(surface);
+    body.diagonal = bounding_diagonal(surface);
+    body.points = solid_points(body.topology, surface.points);
+    body.frame = solid_frame(body.points, body.topology.triangles);
+    if (body.frame.measure == 0)
+        throw Error(
+            "The mesh encloses nothing: its faces bound no solid. Waves marks bodies; close the mesh, or choose "
+            "another method.");
+    body.radius = ball_radius(body.frame);
+    for_each_index(static_cast<int>(body.points.size()), [&](int v) {
+        body.points[v] = body.frame.axes.transpose() * (body.points[v] - body.frame.centre) / body.radius;
+    });
+    body.area = ordered_sum(body.topology.surface_triangles, 0.0,
+                            [&](int f) { return scaled_normal(body.points, body.topology.triangles[f]).norm() / 2; });
+    return body;
+}
+
+double wave_step(const WaveBody& body, double strength, int waves, int* rung)
+{
+    const double step =
+        strength * std::sqrt(12.0) * body.area * (body.diagonal / body.radius) / (4 * pi) / std::sqrt(2.0 * waves);
+    const int place = static_cast<int>(std::lround(2 * std::log2(step)));
+    if (rung)
+        *rung = place;
+    return std::exp2(place / 2.0);
+}
+
+std::vector<double> wave_values_of(const std::vector<std::complex<double>>& transform,
+                                   const std::vector<double>& phases, bool mirrored)
+{
+    std::vector<double> values(transform.size());
+    for (std::size_t k = 0; k < transform.size(); ++k) {
+        double s, c;
+        sine_cosine(phases[k], s, c);
+        values[k] = c * transform[k].real() - (mirrored ? -s : s) * transform[k].imag();
+    }
+    return values;
+}
+
+const WaveGrid& wave_grid()
+{
+    static const WaveGrid grid = make_grid();
+    return grid;
+}
+
+WaveReading read_waves(const WaveBody& body, const WavePlan& plan, const WaveReadOptions& options)
+{
+    const int orientations = options.orientations;
+    const std::size_t count = plan.vectors.size();
+    const Points normals = site_normals(body);
+    const std::vector<std::complex<double>> rest = transform_of(body, body.points, plan, orientations);
+    std::vector<std::vector<std::complex<double>>> flows;
+    for (const std::vector<double>& flow : processing_flows(body, normals))
+        flows.push_back(derivative(body, normals, flow, rest, plan, orientations));
+
+    const auto before = transforms_before_smoothing(body, plan, orientations);
+
+    int own_rung = 0;
+    (void)wave_step(body, options.strength, plan.count(), &own_rung);
+    const int ways_round = orientations * (options.mirrored ? 2 : 1);
+    double rung_sum = 0;
+    for (int j = -options.rungs; j <= options.rungs; ++j)
+        rung_sum += std::exp2(-std::abs(j));
+
+    WaveReading reading;
+    reading.grid = &wave_grid();
+    for (int j = -options.rungs; j <= options.rungs; ++j)
+        for (int way = 0; way < ways_round; ++way) {
+            WaveView view;
+            view.orientation = way % orientations;
+            view.mirrored = way >= orientations;
+            view.rung = own_rung + j;
+            view.step = std::exp2(view.rung / 2.0);
+            const double share = ways_round == 1 ? 1 : way == 0 ? 0.5 : 0.5 / (ways_round - 1);
+            view.log_weight = std::log(share * std::exp2(-std::abs(j)) / rung_sum);
+            const auto part = [&](const std::vector<std::complex<double>>& all) {
+                const auto begin = all.begin() + static_cast<std::ptrdiff_t>(view.orientation * count);
+                std::vector<double> values =
+                    wave_values_of({begin, begin + static_cast<std::ptrdiff_t>(count)}, plan.phases, view.mirrored);
+                for (double& value : values)
+                    value /= view.step;
+                return values;
+            };
+            view.phase = part(rest);
+            for (std::size_t k = 0; k < count; ++k)
+                view.phase[k] -= plan.dithers[k];
+            view.bend = part(flows[0]);
+            view.relax = part(flows[1]);
+            to_half_a_period(view.bend);
+            double dot = 0;
+            double square = 0;
+            for (std::size_t k = 0; k < count; ++k) {
+                dot += view.bend[k] * view.relax[k];
+                square += view.bend[k] * view.bend[k];
+            }
+            if (square > 0)
+                for (std::size_t k = 0; k < count; ++k)
+                    view.relax[k] -= dot / square * view.bend[k];
+            to_half_a_period(view.relax);
+            if (!before.empty()) {
+                std::vector<std::vector<double>> at;
+                for (const auto& transform : before)
+                    at.push_back(part(transform));
+                for (const double s : reading.grid->undone) {
+                    const std::array<double, nodes> weights = interpolation(s);
+                    std::vector<double> phase(count);
+                    for (std::size_t k = 0; k < count; ++k) {
+                        phase[k] = -plan.dithers[k];
+                        for (int i = 0; i < nodes; ++i)
+                            phase[k] += weights[i] * at[i][k];
+                    }
+                    view.undone.push_back(std::move(phase));
+                }
+            }
+            reading.views.push_back(std::move(view));
+        }
+    return reading;
+}
+
+std::vector<double> wave_phases(const WaveReading& reading, const WaveWay& way)
+{
+    const WaveView& view = reading.views[way.view];
+    std::vector<double> y = way.undone < 0 ? view.phase : view.undone[way.undone];
+    for (std::size_t k = 0; k < y.size(); ++k)
+        y[k] += way.t * view.bend[k] + way.u * view.relax[k];
+    return y;
+}
+
+WavePresence wave_presence(const WaveReading& reading)
+{
+    struct Part {
+        double evidence = -never;
+        double best = never;
+        WaveWay way;
+    };
+    const int count = static_cast<int>(reading.views.front().phase.size());
+    const CosineTail tail(count);
+    const auto parts = for_all_ways<Part>(reading, std::vector<double>(count, 0),
+                                          [&](Part& part, const WaveWay& way, double gathered, double) {
+                                              const double bound = tail(gathered) - way.log_weight;
+                                              if (bound < part.best) {
+                                                  part.best = bound;
+                                                  part.way = way;
+                                              }
+                                              const double share = -bound;
+                                              if (share > part.evidence - 40)
+                                                  part.evidence = log_add(part.evidence, share);
+                                          });
+    WavePresence result;
+    double best = never;
+    result.log_evidence = -never;
+    for (const Part& part : parts) {
+        result.log_evidence = log_add(result.log_evidence, part.evidence);
+        if (part.best < best) {
+            best = part.best;
+            result.way = part.way;
+        }
+    }
+    double gathered = 0;
+    for (const double y : wave_phases(reading, result.way))
+        gathered += cosine(4 * pi * y);
+    result.log_p = std::min(0.0, log_tail_of_cosines(count, gathered) - result.way.log_weight);
+    return result;
+}
+
+WaveMatch wave_match(const WaveReading& reading, const WavePresence& presence, const Bits& coded)
+{
+    struct Part {
+        double by_dither = never;
+        double by_mask = never;
+        WaveWay dither_way;
+        WaveWay mask_way;
+    };
+    const int count = static_cast<int>(reading.views.front().phase.size());
+    std::vector<double> signs(count);
+    for (int k = 0; k < count; ++k)
+        signs[k] = coded[k] ? -1 : 1;
+    const CosineTail tail(count);
+    // Weights that look at y, but never at bits.
+    const auto log_weight = [&](const WaveWay& way, double log_tail) {
+        return way.log_weight + std::log(0.5) + log_add(0, -log_tail - presence.log_evidence);
+    };
+    auto parts = for_all_ways<Part>(reading, signs, [&](Part& part, const WaveWay& way, double gathered, double sum) {
+        if (sum <= 0)
+            return;
+        const double by_dither = tail(sum) - way.log_weight;
+        if (by_dither < part.by_dither) {
+            part.by_dither = by_dither;
+            part.dither_way = way;
+        }
+        // Hoeffding's bound, for choosing: sum of l^2 is (n + S2) / 2.
+        const double rough = -sum * sum / (count + gathered) - way.log_weight;
+        if (rough - 1 < part.by_mask + 60) {
+            const double by_mask = -sum * sum / (count + gathered) - log_weight(way, tail(gathered));
+            if (by_mask < part.by_mask) {
+                part.by_mask = by_mask;
+                part.mask_way = way;
+            }
+        }
+    });
+
+    WaveMatch result;
+    double best = never;
+    const auto consider = [&](double log_p, const WaveWay& way, double sum) {
+        if (log_p < best) {
+            best = log_p;
+            result.way = way;
+            result.sum = sum;
+        }
+    };
+    const auto exact = [&](const WaveWay& way, bool by_mask) {
+        std::vector<double> l = wave_phases(reading, way);
+        double sum = 0;
+        double gathered = 0;
+        for (int k = 0; k < count; ++k) {
+            l[k] = cosine(2 * pi * l[k]);
+            sum += signs[k] * l[k];
+            gathered += 2 * l[k] * l[k] - 1;
+        }
+        if (by_mask)
+            consider(log_tail_of_signs(l, sum) - log_weight(way, log_tail_of_cosines(count, gathered)), way, sum);
+        else
+            consider(log_tail_of_cosines(count, sum) - way.log_weight, way, sum);
+    };
+    constexpr std::size_t most = 32;
+    const auto top = [&](auto bound, auto way, bool by_mask) {
+        const std::size_t some = std::min(most, parts.size());
+        std::partial_sort(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(some), parts.end(),
+                          [&](const Part& a, const Part& b) { return a.*bound < b.*bound; });
+        for (std::size_t i = 0; i < some && parts[i].*bound < never; ++i)
+            exact(parts[i].*way, by_mask);
+    };
+    top(&Part::by_dither, &Part::dither_way, false);
+    top(&Part::by_mask, &Part::mask_way, true);
+    result.log_p = std::min(0.0, best + std::log(2.0));
+    return result;
+}
+
+std::vector<double> wave_soft(const std::vector<double>& phases)
+{
+    std::vector<double> soft(phases.size());
+    double mean = 0;
+    for (std::size_t k = 0; k < phases.size(); ++k) {
+        soft[k] = cosine(2 * pi * phases[k]);
+        mean += cosine(4 * pi * phases[k]) / static_cast<double>(phases.size());
+    }
+    // Normal noise takes cos 4 pi y to the fourth power of what it takes cos 2 pi y to.
+    const double r = std::min(0.999, std::pow(std::max(mean, 1e-3), 0.25));
+    const double concentration = r * (2 - r * r) / (1 - r * r); // of the von Mises distribution, within some percent
+    for (double& l : soft)
+        l *= -2 * concentration;
+    return soft;
+}
+
+std::vector<WaveSoft> wave_ways(const WaveReading& reading, const WavePresence& presence, int most)
+{
+    struct Found {
+        double log_weight = 0;
+        WaveWay way;
+    };
+    using Part = std::vector<Found>;
+    const int count = static_cast<int>(reading.views.front().phase.size());
+    const CosineTail tail(count);
+    const auto parts = for_all_ways<Part>(
+        reading, std::vector<double>(count, 0), [&](Part& part, const WaveWay& way, double gathered, double) {
+            const double log_weight = way.log_weight - tail(gathered) - presence.log_evidence;
+            if (log_weight > -16)
+                part.push_back({log_weight, way});
+        });
+    std::vector<Found> all;
+    for (const Part& part : parts)
+        all.insert(all.end(), part.begin(), part.end());
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Found& a, const Found& b) { return a.log_weight > b.log_weight; });
+    std::vector<WaveSoft> ways;
+    for (std::size_t i = 0; i < all.size() && static_cast<int>(i) < most; ++i)
+        ways.push_back({std::exp(all[i].log_weight), wave_soft(wave_phases(reading, all[i].way))});
+    return ways;
+}
+
+} // namespace vcg_ext

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wave_embedding.h"
+
+#include "../base/progress.h"
+#include "../geometry/turns.h"
+#include "../geometry/wave_sums.h"
+#include "../base/parallel.h"
+#include "../placement/fold_guard.h"
+#include "../placement/wave_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace vcg_ext {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr int most_rounds = 12;
+constexpr double near_enough = 0.01; ///< of a step
+constexpr double readable = 0.05;    ///< of a step: above it the mark is not worth having
+
+/// The m_k of vertices as they are now, in the solid's own frame.
+std::vector<double> values_now(const WaveBody& body, const Points& vertices, const WavePlan& plan)
+{
+    Points points = solid_points(body.topology, vertices);
+    Frame frame = solid_frame(points, body.topology.triangles);
+    if (frame.measure == 0)
+        throw Error("The marked mesh would enclose nothing.");
+    align_axes(frame, body.frame.axes);
+    const double r = ball_radius(frame);
+    for_each_index(static_cast<int>(points.size()),
+                   [&](int v) { points[v] = frame.axes.transpose() * (points[v] - frame.centre) / r; });
+    std::vector<std::complex<double>> transform = solid_transform(points, body.topology.triangles, plan.vectors);
+    if (frame.measure < 0)
+        for (std::complex<double>& value : transform)
+            value = -value;
+    return wave_values_of(transform, plan.phases, false);
+}
+
+std::string text(const char* format, double a, double b = 0, double c = 0)
+{
+    char buffer[400];
+    std::snprintf(buffer, sizeof buffer, format, a, b, c);
+    return buffer;
+}
+
+} // namespace
+
+WaveEmbedding embed_waves(const Cover& cover, const WavePlan& plan, const Bits& coded, double strength,
+                          const std::function<Points(const Points&)>& round, const Progress& progress)
+{
+    const WaveBody body = wave_body(cover.surface);
+    const Point& variances = body.frame.variances;
+    if (variances[0] - variances[2] < 0.02 * variances[0])
+        throw Error(
+            "The body is as wide in every direction, as spheres and cubes are, so it has no axes of its own that "
+            "Waves could find again. Choose another method.");
+    const int waves = plan.count();
+    if (body.topology.sites < waves)
+        throw Error("The mesh has fewer vertices than there are waves.");
+    WaveEmbedding result;
+    result.step = wave_step(body, strength, waves);
+    const WaveField field(body, plan);
+    const Points directions = offset_directions(body);
+    const int vertices = static_cast<int>(cover.points.size());
+    const auto site = [&](int v) { return body.topology.site_of_vertex.empty() ? v : body.topology.site_of_vertex[v]; };
+
+    std::vector<double> offset(body.topology.sites, 0); // canonical
+    std::vector<double> best_offset;
+    std::vector<double> target;
+    const auto place = [&](const std::vector<double>& s) {
+        Points placed(vertices);
+        const auto at = [&](int v, double part) -> Point {
+            return cover.points[v] + part * body.radius * s[site(v)] * (body.frame.axes * directions[site(v)]);
+        };
+        for_each_index(vertices, [&](int v) { placed[v] = at(v, 1); });
+        constexpr int steps = 4;
+        const std::vector<int> held =
+            guard_folds(cover, placed, steps, [&](int v, int step) { return at(v, 1.0 - step / 4.0); });
+        result.guarded = static_cast<int>(std::count_if(held.begin(), held.end(), [](int step) { return step > 0; }));
+        return round(placed);
+    };
+
+    result.worst = 1e300;
+    int worst_wave = 0;
+    for (int turn = 0;; ++turn) {
+        report(progress, 100 * turn / (most_rounds + 1), "Waves");
+        Points placed = turn == 0 ? cover.points : place(offset);
+        const std::vector<double> now = values_now(body, placed, plan);
+        if (target.empty())
+            for (int k = 0; k < waves; ++k) {
+                const double shift = plan.dithers[k] + coded[k] * 0.5;
+                target.push_back(result.step * (std::round(now[k] / result.step - shift) + shift));
+            }
+        std::vector<double> missing(waves);
+        double worst = 0;
+        int wave = 0;
+        for (int k = 0; k < waves; ++k) {
+            missing[k] = target[k] - now[k];
+            if (const double size = std::abs(missing[k]) / result.step; size > worst) {
+                worst = size;
+                wave = k;
+            }
+        }
+        if (worst < result.worst || turn <= 1) {
+            result.worst = worst;
+            worst_wave = wave;
+            result.points = std::move(placed);
+            best_offset = offset;
+        }
+        result.rounds = turn;
+        if (worst < near_enough || turn == most_rounds)
+            break;
+        const std::vector<double> more = field.least(missing);
+        for_each_index(body.topology.sites, [&](int v) { offset[v] += more[v]; });
+    }
+
+    const double length = 2 * pi / plan.vectors[worst_wave].norm() * body.radius / body.diagonal;
+    if (result.worst > readable)
+        throw Error(text("The mesh cannot be displaced as smoothly as Waves asks: wave %.0f, of length %.3f of the "
+                         "diagonal, ends %.2f of a step from where its bit is. Take a finer mesh or another method.",
+                         worst_wave, length, result.worst));
+    double squares = 0;
+    double area = 0;
+    for (int f = 0; f < body.topology.surface_triangles; ++f) {
+        const Triangle& t = body.topology.triangles[f];
+        const double a = scaled_normal(body.points, t).norm();
+        const double s[3] = {best_offset[t[0]], best_offset[t[1]], best_offset[t[2]]};
+        const double sum = s[0] + s[1] + s[2];
+        squares += a * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + sum * sum) / 12;
+        area += a;
+    }
+    result.moved = std::sqrt(squares / area) * body.radius / body.diagonal;
+    if (result.moved > 2.5 * strength) {
+        int least = 0;
+        for (int k = 1; k < waves; ++k)
+            if (field.reach(k) < field.reach(least))
+                least = k;
+        throw Error(
+            text("The mesh is too coarse for Waves: wave %.0f, of length %.3f of the diagonal, takes faces that "
+                 "are smaller. The mark would move the surface by %.1e of the diagonal. Take a finer mesh or "
+                 "another method.",
+                 least, 2 * pi / plan.vectors[least].norm() * body.radius / body.diagonal, result.moved));
+    }
+    return result;
+}
+
+} // namespace vcg_ext

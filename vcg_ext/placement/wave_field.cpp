@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wave_field.h"
+
+#include "../carrier/wave_flows.h"
+#include "../geometry/turns.h"
+#include "../geometry/wave_sums.h"
+#include "../base/parallel.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace vcg_ext {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr int sample = 20000; ///< sites in the Gram matrix: 64 waves need no more, and the loop corrects the rest
+
+/// Lumped areas: a third of those around.
+std::vector<double> site_areas(const WaveBody& body)
+{
+    std::vector<double> areas(body.topology.sites, 0);
+    for (int f = 0; f < body.topology.surface_triangles; ++f)
+        for (const int v : body.topology.triangles[f])
+            areas[v] += scaled_normal(body.points, body.topology.triangles[f]).norm() / 6;
+    return areas;
+}
+
+/// Means of the waves under each site's hat function, by midpoints of pieces that are small against the waves.
+std::vector<double> hat_means(const WaveBody& body, const WavePlan& plan, const std::vector<double>& areas)
+{
+    const std::size_t count = plan.vectors.size();
+    double largest = 0;
+    for (const Point& q : plan.vectors)
+        largest = std::max(largest, q.norm());
+    std::vector<double> means(body.topology.sites * count, 0);
+    for (int f = 0; f < body.topology.surface_triangles; ++f) {
+        const Triangle& t = body.topology.triangles[f];
+        const Point& a = body.points[t[0]];
+        const Point ab = body.points[t[1]] - a;
+        const Point ac = body.points[t[2]] - a;
+        const double edge = std::sqrt(std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()}));
+        const int n = std::clamp(static_cast<int>(std::ceil(edge * largest / 0.5)), 1, 64);
+        const double area = ab.cross(ac).norm() / 2 / (n * n);
+        Points middles;
+        std::vector<std::array<double, 3>> hats;
+        const auto add = [&](double i, double j) {
+            middles.emplace_back(a + i / n * ab + j / n * ac);
+            hats.push_back({1 - (i + j) / n, i / n, j / n});
+        };
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; i + j < n; ++j) {
+                add(i + 1.0 / 3, j + 1.0 / 3);
+                if (i + j + 1 < n)
+                    add(i + 2.0 / 3, j + 2.0 / 3);
+            }
+        const std::vector<double> waves = wave_values(middles, plan.vectors, plan.phases);
+        for (std::size_t i = 0; i < middles.size(); ++i)
+            for (int corner = 0; corner < 3; ++corner) {
+                double* row = means.data() + t[corner] * count;
+                const double share = area * hats[i][corner];
+                for (std::size_t k = 0; k < count; ++k)
+                    row[k] += share * waves[i * count + k];
+            }
+    }
+    for (int v = 0; v < body.topology.sites; ++v)
+        for (std::size_t k = 0; k < count; ++k)
+            means[v * count + k] /= std::max(areas[v], 1e-300);
+    return means;
+}
+
+} // namespace
+
+Points offset_directions(const WaveBody& body)
+{
+    constexpr double ridge = 1e-3;
+    constexpr double longest = 3;
+    const double outward = body.frame.measure < 0 ? -1 : 1;
+    const int sites = body.topology.sites;
+    std::vector<Eigen::Matrix3d> planes(sites, Eigen::Matrix3d::Zero());
+    Points sums(sites, Point::Zero());
+    for (int f = 0; f < body.topology.surface_triangles; ++f) {
+        const Triangle& t = body.topology.triangles[f];
+        Point n = outward * scaled_normal(body.points, t);
+        const double doubled = n.norm();
+        if (!(doubled > 0))
+            continue;
+        n /= doubled;
+        for (const int v : t) {
+            planes[v] += doubled * n * n.transpose();
+            sums[v] += doubled * n;
+        }
+    }
+    Points directions(sites, Point::Zero());
+    for_each_index(sites, [&](int v) {
+        const double weight = planes[v].trace();
+        const double length = sums[v].norm();
+        if (!(weight > 0) || !(length > 0))
+            return;
+        // The ridge draws towards the mean normal, where nothing else says which way.
+        const Eigen::Matrix3d m = planes[v] + ridge * weight * Eigen::Matrix3d::Identity();
+        Point u = m.ldlt().solve(sums[v] + ridge * weight * sums[v] / length);
+        if (const double size = u.norm(); size > longest)
+            u *= longest / size;
+        directions[v] = u;
+    });
+    return directions;
+}
+
+WaveField::WaveField(const WaveBody& body, const WavePlan& plan) : body_(body), plan_(plan)
+{
+    const int sites = body.topology.sites;
+    const int count = plan.count();
+    const std::vector<double> areas = site_areas(body);
+    area_ = body.area;
+    // Means matter where an edge is a good part of a radian of the shortest wave.
+    const double edge = std::sqrt(2 * body.area / std::max(1, body.topology.surface_triangles)) * 20;
+    if (edge > 0.3 && sites <= 100000)
+        values_ = hat_means(body, plan, areas);
+
+    const int stride = (sites + sample - 1) / sample;
+    Points points;
+    std::vector<double> weights;
+    double sum = 0;
+    for (int v = 0; v < sites; v += stride) {
+        points.push_back(body.points[v]);
+        weights.push_back(areas[v]);
+        sum += areas[v];
+    }
+    const std::vector<double> at = values_.empty() ? wave_values(points, plan.vectors, plan.phases) : values_;
+    const int step = values_.empty() ? 1 : stride;
+    const int rows = static_cast<int>(points.size());
+    gram_ = ordered_sum(rows, Eigen::MatrixXd(Eigen::MatrixXd::Zero(count, count)), [&](int i) -> Eigen::MatrixXd {
+        const Eigen::Map<const Eigen::VectorXd> w(at.data() + static_cast<std::size_t>(i) * step * count, count);
+        return weights[i] * w * w.transpose();
+    });
+    if (sum > 0)
+        gram_ *= area_ / sum;
+    const double ridge = 1e-6 * gram_.trace() / count;
+    solver_.compute(gram_ + ridge * Eigen::MatrixXd::Identity(count, count));
+}
+
+std::vector<double> WaveField::least(const std::vector<double>& change) const
+{
+    const int count = plan_.count();
+    const Eigen::VectorXd a = solver_.solve(4 * pi * Eigen::Map<const Eigen::VectorXd>(change.data(), count));
+    const Points sites(body_.points.begin(), body_.points.begin() + body_.topology.sites);
+    if (values_.empty())
+        return wave_field(sites, plan_.vectors, plan_.phases, {a.data(), a.data() + count});
+    std::vector<double> field(sites.size());
+    for_each_index(static_cast<int>(sites.size()), [&](int v) {
+        double sum = 0;
+        for (int k = 0; k < count; ++k)
+            sum += a[k] * values_[static_cast<std::size_t>(v) * count + k];
+        field[v] = sum;
+    });
+    return field;
+}
+
+double WaveField::reach(int wave) const
+{
+    return gram_(wave, wave) / (area_ / 2);
+}
+
+} // namespace vcg_ext

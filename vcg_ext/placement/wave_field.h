@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "../carrier/waves.h"
+
+#include <Eigen/Cholesky>
+
+namespace vcg_ext {
+
+/// Per site the displacement that moves the planes of its faces outward by one: the least of sum A_f (n_f . u - 1)^2.
+///
+/// The averaged normal would leave the sides of a crease behind and bend them where they end. Where all faces lie
+/// nearly in one plane, the directions along it are left alone; no vector is longer than 3.
+[[nodiscard]] Points offset_directions(const WaveBody& body);
+
+/// The least field along the surface that changes every m_k by a given amount: s = sum of a_k w_k, G a = 4 pi dm, where
+/// w_k(v) is the mean of wave k around the site v (by its hat function) and G_kl = sum of A_v w_k w_l. Canonical units.
+class WaveField {
+public:
+    WaveField(const WaveBody& body, const WavePlan& plan);
+
+    /// s per site. \param change dm, per wave
+    [[nodiscard]] std::vector<double> least(const std::vector<double>& change) const;
+
+    /// How much of a wave this mesh can make: 1 where its faces are small against the wave, to 0.
+    [[nodiscard]] double reach(int wave) const;
+
+private:
+    const WaveBody& body_;
+    const WavePlan& plan_;
+    std::vector<double> values_; ///< w_k(v), row after row, where the mesh is coarse; else the waves themselves do
+    Eigen::MatrixXd gram_;
+    Eigen::LLT<Eigen::MatrixXd> solver_;
+    double area_ = 0;
+};
+
+} // namespace vcg_ext
