@@ -2,11 +2,11 @@
 #include "waves.h"
 
 #include "../base/error.h"
+#include "../base/parallel.h"
 #include "../geometry/turns.h"
 #include "../geometry/wave_sums.h"
-#include "../payload/sum_tails.h"
-#include "../base/parallel.h"
 #include "../key/random.h"
+#include "../payload/sum_tails.h"
 #include "wave_flows.h"
 
 #include <algorithm>

@@ -170,6 +170,11 @@ int coded_length(int bits, int carriers)
     return std::min((bits + width - 1) / width * width, carriers);
 }
 
+std::vector<int> recommended_numbers()
+{
+    return {ladder.begin(), ladder.end()};
+}
+
 int recommended_carriers(const Message& message)
 {
     const int bits = static_cast<int>(message.bits.size());

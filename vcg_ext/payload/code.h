@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "polar.h"
 #include "message_text.h"
+#include "polar.h"
 
 #include <cstdint>
 #include <string>
@@ -71,6 +71,9 @@ struct Hypothesis {
 /// The length that a message of `bits` is padded to: the next multiple of 8 up to 128, 16 up to 256, 32 up to 512, 64
 /// above; but `carriers` where that is less.
 [[nodiscard]] int coded_length(int bits, int carriers);
+
+/// 64, 96, 128, 192, 256, 384, 512, 768, 1024: the numbers of carriers that recommended_carriers() chooses from.
+[[nodiscard]] std::vector<int> recommended_numbers();
 
 /// The least of 64, 96, 128, 192, 256, 384, 512, 768, 1024 carriers that is at least twice the message's bits (raw
 /// bits: that is at least their number). \throw Error where there is none: says what the message needs

@@ -1,0 +1,88 @@
+#include "waves.h"
+
+#include "wave_embedding.h"
+
+#include <cmath>
+#include <memory>
+
+namespace vcg_ext {
+
+namespace {
+
+constexpr int all_rungs = 9; ///< each way from the usual strength: a factor of 22, so 5e-6 to 2e-3
+constexpr int most_ways = 4;
+const double log10_half = std::log10(0.5);
+
+/// A reading and what it says by the key alone; shared by who asks about expected bits later.
+struct Read {
+    WaveReading reading;
+    WavePresence presence;
+};
+
+double log10_of(double natural)
+{
+    return natural / std::log(10.0);
+}
+
+} // namespace
+
+Plan plan_waves(const Key& key, const CarrierOptions& options)
+{
+    Plan plan;
+    plan.options = options;
+    plan.waves = wave_plan(key, options.bits);
+    return plan;
+}
+
+MarkFrame find_waves(const Surface& surface, const Plan& /*plan*/)
+{
+    return wave_body(surface);
+}
+
+Readings read_by_waves(const Surface& /*surface*/, const Plan& plan, const MarkFrame& frame)
+{
+    const WaveBody& body = std::get<WaveBody>(frame);
+    const auto read = [&](int rungs) {
+        WaveReadOptions options;
+        options.rungs = rungs;
+        auto result = std::make_shared<Read>();
+        result->reading = read_waves(body, plan.waves, options);
+        result->presence = wave_presence(result->reading);
+        return result;
+    };
+    std::shared_ptr<const Read> found = read(1);
+    const double sure = -7 * std::log(10.0);
+    if (found->presence.log_p > sure) {
+        std::shared_ptr<const Read> any = read(all_rungs);
+        if (any->presence.log_p < found->presence.log_p)
+            found = any;
+    }
+    Readings readings;
+    readings.in_log_likelihoods = true;
+    for (WaveSoft& way : wave_ways(found->reading, found->presence, most_ways)) {
+        Reading reading;
+        reading.weight = way.weight;
+        reading.erased.assign(way.soft.size(), 0);
+        reading.soft = std::move(way.soft);
+        readings.ways.push_back(std::move(reading));
+    }
+    readings.presence = std::min(0.0, log10_of(found->presence.log_p) - log10_half);
+    readings.match = [found](const Bits& coded) {
+        return std::min(0.0, log10_of(wave_match(found->reading, found->presence, coded).log_p) - log10_half);
+    };
+    return readings;
+}
+
+Marking embed_by_waves(const Cover& cover, const Plan& plan, const Bits& coded, const PlacementOptions& options,
+                       const Progress& progress)
+{
+    WaveEmbedding embedded = embed_waves(cover, plan.waves, coded, options.strength, rounded_to_float, progress);
+    Marking marking;
+    marking.capacity = most_carriers;
+    marking.rounds = embedded.rounds;
+    marking.kept.guarded_vertices = embedded.guarded;
+    marking.kept.points = std::move(embedded.points);
+    return marking;
+}
+
+} // namespace vcg_ext
