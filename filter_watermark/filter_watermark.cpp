@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <vcg_ext/base/error.h>
 
 #include "filter_watermark.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// Every difference between MeshLab 2020.09 and 2025.07, and nothing else.
 ///

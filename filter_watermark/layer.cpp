@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "layer.h"
 
 #include <vcg_ext/base/error.h>
@@ -118,6 +119,10 @@ void write_distances(MeshModel& layer, const std::vector<double>& distance_of_ve
 void write_surface(MeshModel& layer, const vcg_ext::Surface& surface)
 {
     CMeshO& mesh = layer.cm;
+    CMeshO room; // where the memory is missing, it is missed here, while the layer is whole
+    vcg::tri::Allocator<CMeshO>::AddVertices(room, surface.points.size());
+    vcg::tri::Allocator<CMeshO>::AddFaces(room, surface.triangles.size());
+    room.Clear();
     layer.clearDataMask(MeshModel::MM_FACEFACETOPO | MeshModel::MM_VERTFACETOPO | MeshModel::MM_WEDGTEXCOORD |
                         MeshModel::MM_VERTTEXCOORD | MeshModel::MM_FACECOLOR | MeshModel::MM_FACEQUALITY |
                         MeshModel::MM_POLYGONAL);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "layer.h"
 #include "report.h"
 #include "shared_parameters.h"

@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "report.h"
 
 #include <QFileInfo>
+#include <vcg_ext/base/version.h>
 
 #include <algorithm>
 
@@ -35,6 +37,7 @@ Json to_json(const vcg_ext::EmbedReport& report)
                          {"three", report.moves->moves[2]},
                          {"more", report.moves->moves[3]},
                          {"unconverged", report.moves->unconverged}};
+    json["version"] = VCG_EXT_VERSION;
     json["warnings"] = report.warnings;
     return json;
 }
@@ -61,6 +64,7 @@ Json to_json(const vcg_ext::DetectReport& report)
     if (!report.orientation.empty())
         json["orientation"] = report.orientation;
     json["seconds"] = report.seconds;
+    json["version"] = VCG_EXT_VERSION;
     json["warnings"] = report.warnings;
     return json;
 }
@@ -69,7 +73,7 @@ Json to_json(const vcg_ext::AttackReport& report)
 {
     return {{"attack", name(report.attack)}, {"amount", report.amount},     {"iterations", report.iterations},
             {"seed", report.seed},           {"vertices", report.vertices}, {"faces", report.faces},
-            {"warnings", report.warnings}};
+            {"version", VCG_EXT_VERSION}};
 }
 
 Json to_json(const vcg_ext::DistortionReport& report)
@@ -85,6 +89,7 @@ Json to_json(const vcg_ext::DistortionReport& report)
         json["volume_change"] = *report.volume_change;
     json["area_change"] = report.area_change;
     json["samples"] = report.samples;
+    json["version"] = VCG_EXT_VERSION;
     json["warnings"] = report.warnings;
     return json;
 }

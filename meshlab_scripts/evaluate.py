@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Evaluates the watermarks: a protocol's meshes x methods x keys x attacks, through pymeshlab and the plugin.
 
 Writes CSV, tables beside the thesis' figures, plots and one report.md. A stopped run goes on where it was.
@@ -11,8 +12,9 @@ from pathlib import Path
 
 from evaluation.jobs import Site
 from evaluation.plugin import load
-from evaluation.protocol import read_protocol
+from evaluation.protocol import ProtocolError, read_protocol
 from evaluation.report import write_report
+from evaluation.results import NoResults
 from evaluation.schedule import run_missing
 from evaluation.store import Store
 
@@ -40,7 +42,10 @@ def main() -> None:
     arguments = parser.parse_args()
 
     named = PROTOCOLS / f"{arguments.protocol}.toml"
-    protocol = read_protocol(named if named.exists() else Path(arguments.protocol))
+    try:
+        protocol = read_protocol(named if named.exists() else Path(arguments.protocol))
+    except ProtocolError as error:
+        parser.error(str(error))
     protocol.keys = arguments.keys or protocol.keys
     protocol.meshes = arguments.mesh or protocol.meshes
     site = Site(arguments.meshes.resolve(), arguments.plugin.resolve(), (arguments.work / "marked").resolve())
@@ -53,8 +58,12 @@ def main() -> None:
     if not arguments.report_only:
         run_missing([case.job for case in cases], site, store, arguments.scheduler)
     report = arguments.report or arguments.work / protocol.name
-    write_report(protocol, cases, site, store, report)
-    store.close()
+    try:
+        write_report(protocol, cases, site, store, report)
+    except NoResults as error:
+        parser.error(str(error))
+    finally:
+        store.close()
     print(f"{report / 'report.md'}")
 
 

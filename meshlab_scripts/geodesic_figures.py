@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Renders the thesis' Figures 4.1 and 4.8: distances from the key's point, their strips, and where vertices moved."""
 
 import argparse

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Renders the README's picture: a mesh, the same watermarked, and where and how far its vertices moved."""
 
 import argparse

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Watermark a mesh and read the mark back, in Python."""
 
 from pathlib import Path

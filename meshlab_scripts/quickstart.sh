@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # From a clean clone to a watermarked mesh: set-up, build, embed and detect through meshlabserver, the same in Python.
 set -euo pipefail
 cd "$(dirname "$0")/.."

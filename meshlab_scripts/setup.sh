@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Brings what the build needs on Debian 12: packages, the sources of both MeshLabs, pymeshlab and meshes.
 # Usage: setup.sh [packages] [sources] [python] [data]     (all four where none is named)
 # What is there already is left alone. Needs root or sudo only where a package is missing.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Draws chapter 3's Figure 3.2, a mesh's patches, and Figure 3.3, one patch's spectral coefficients for bit 0 and 1."""
 
 import argparse

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes that no one should hand in, as vertices and faces, for the tests of both doors."""
 
 from collections.abc import Callable

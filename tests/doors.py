@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The doors to the filters that can be scripted: meshlabserver (2020.09, float) and pymeshlab (2025.07, double).
 
 Both take the same parameters and answer with the filter's report, so that a test can be run through either.

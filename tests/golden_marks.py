@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The golden marks of tests/golden, which pin the format of a mark, for the tests of both doors."""
 
 import json

@@ -1,7 +1,7 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Style of C++, Python and shell, by tools alone. Usage: lint.sh [tidy [FOLDER...]]
-# `tidy` adds clang-tidy over all our files, some minutes at first; needs build/compile_commands.json. The tests run it
-# over the library and the plugin (test tidy).
+# `tidy` adds clang-tidy over all our files, some minutes at first; needs build/compile_commands.json.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 git ls-files -co --exclude-standard '*.h' '*.cpp' | xargs clang-format --dry-run -Werror

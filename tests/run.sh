@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Everything, from a clean clone: set-up, build, all tests. What is there already is not fetched or built again.
 # Usage: tests/run.sh [arguments of ctest, such as -L unit]
 set -euo pipefail

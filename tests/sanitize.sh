@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The unit tests and some fuzzing under sanitizers, built in a folder of their own.
 # Usage: sanitize.sh address,undefined|thread [PROGRAM ARGUMENTS...]     another program of tests/ in their place
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A plugin has two vcglibs in it: the host's, and vcg_ext's own, whose namespace is renamed (vcg_ext/CMakeLists.txt). The
 # linker makes one of what both define inline under one name, whatever their layouts: so no such name may be in both.
 # Usage: symbols.sh LIBRARY OBJECTS...     the static library vcg_ext, and the plugin's own objects

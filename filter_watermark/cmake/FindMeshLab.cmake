@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Makes an imported target from a MeshLab source tree and the library of a built MeshLab.
 #
 #   meshlab_host(NAME SOURCE_DIR LIBRARY SCALAR)   ->   MeshLab::NAME

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # stage_meshlab(PLUGIN_FILE LIBRARY): build/stage, a copy of the installed MeshLab 2020.09 with the plugin in it, so that trying the
 # plugin needs no root. MeshLab finds plugins and libraries from where its binary lies, so binaries are copied, the rest
 # are links.

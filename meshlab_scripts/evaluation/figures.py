@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Plots in one style, legible in black and white: a marker and a line style for each line, bars for the spread."""
 
 from pathlib import Path
@@ -8,7 +9,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from .curves import binomial_tail, error_rates
+from .curves import error_rates, false_positives
 from .jobs import METHODS
 from .protocol import Spec
 from .results import select
@@ -70,24 +71,27 @@ def figure(spec: Spec, frame: pd.DataFrame, path: Path) -> bool:
 
 
 def error_curves(frame: pd.DataFrame, experiment: str, path: Path) -> None:
-    """False negatives of each attack (all its amounts) and method by threshold, and false positives beside their
-    exact distribution.
+    """False negatives of each attack (all its amounts) and method by threshold, and false positives beside what bounds
+    them.
     """
     chosen = frame[(frame["experiment"] == experiment) & (frame["error"] == "")]
     attacked = chosen[chosen["kind"] == "attack"]
-    unmarked = chosen.loc[chosen["kind"] == "null", "detection_ratio"].to_numpy()
-    bits = int(chosen.loc[chosen["kind"] == "null", "bits"].iloc[0])
+    unmarked = chosen[chosen["kind"] == "null"]
     thresholds = np.linspace(0.3, 1, 141)
+    positives = false_positives(unmarked, thresholds)
     axes = _panels(attacked["series"].nunique())
     for axis, series in zip(axes, sorted(attacked["series"].unique()), strict=True):
         for number, method in enumerate(_values(attacked, "method")):
             rows = attacked[(attacked["series"] == series) & (attacked["method"] == method)]
-            _, negative = error_rates(rows["detection_ratio"].to_numpy(), unmarked, thresholds)
+            ratios = rows["detection_ratio"].to_numpy()
+            _, negative = error_rates(ratios, ratios, thresholds)
             axis.plot(thresholds, negative, label=f"missed: {method}", markevery=20, **_style(method, number))
-        positive, _ = error_rates(unmarked, unmarked, thresholds)
-        axis.plot(thresholds, positive, color="0", linewidth=1.6, drawstyle="steps-pre", label="false positives")
-        exact = [binomial_tail(bits, threshold) for threshold in thresholds]
-        axis.plot(thresholds, exact, color="0.5", linestyle=":", linewidth=1.6, label="false positives, exact")
+        for number, (name, (rate, bound)) in enumerate(positives.items()):
+            of = f" ({name})" if name else ""
+            shade = 0.35 * number / max(1, len(positives) - 1)
+            lines = {"color": str(shade), "linewidth": 1.6}
+            axis.plot(thresholds, rate, **lines, drawstyle="steps-pre", label=f"false positives{of}")
+            axis.plot(thresholds, bound, **{**lines, "color": str(shade + 0.4)}, linestyle=":", label=f"at most{of}")
         axis.set_title(series)
         axis.set_xlabel("threshold of the detection ratio")
         axis.set_ylabel("rate")

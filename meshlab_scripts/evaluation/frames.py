@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Where a mesh lies: centre and principal axis of its volume, of its surface, and of its vertices (Figure 3.12)."""
 
 import numpy as np

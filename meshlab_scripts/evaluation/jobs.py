@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What is measured. A job is one row of the results, and its name the hash of all that the row depends on."""
 
 import hashlib

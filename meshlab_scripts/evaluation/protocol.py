@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A protocol file: experiments, each a grid of jobs, and the tables and figures that show them.
 
 title, about, meshes, keys, trim
@@ -14,13 +15,29 @@ title, about, meshes, keys, trim
 
 import itertools
 import tomllib
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from .jobs import Job, digest, mesh_file
+from .jobs import METHODS, Job, digest, mesh_file
 
 Spec = dict[str, Any]
+
+FIELDS = {field.name for field in fields(Job)}
+# What each part of the file must have, and what it may have.
+PROTOCOL = {"title", "meshes", "keys", "experiments"}, {"about", "trim", "attacks", "figures", "tables"}
+ATTACK = {"attack"}, {"amounts", "iterations", "unit"}
+MARKS = {"name", "methods", "bits"}, {"strengths", "limits", "attacks", "nulls", "meshes", "trim"}
+ALIGNMENT = {"name", "align", "attacks"}, {"meshes"}
+FIGURE = {"name", "title", "experiment", "x"}, {"series", "y", "ys", "panels", "lines", "label", "where"}
+TABLE = {"name", "title", "experiment", "rows", "columns"}, {"published", "timed"}
+COLUMN_OPTIONS = {"label", "value", "scale", "digits", "over"}
+COLUMN = {"label", "value"}, COLUMN_OPTIONS | FIELDS
+
+
+class ProtocolError(ValueError):
+    """The protocol file says something that has no meaning: which, and what would have."""
 
 
 @dataclass(frozen=True)
@@ -90,8 +107,14 @@ class Protocol:
 
 def read_protocol(path: Path) -> Protocol:
     """Reads a protocol file."""
-    with path.open("rb") as file:
-        spec = tomllib.load(file)
+    try:
+        with path.open("rb") as file:
+            spec = tomllib.load(file)
+        _check(spec)
+    except FileNotFoundError:
+        raise ProtocolError(f"There is no protocol {path}.") from None
+    except (tomllib.TOMLDecodeError, ProtocolError) as error:
+        raise ProtocolError(f"{path}: {error}") from error
     return Protocol(
         name=path.stem,
         title=spec["title"],
@@ -104,3 +127,49 @@ def read_protocol(path: Path) -> Protocol:
         figures=spec.get("figures", []),
         tables=spec.get("tables", []),
     )
+
+
+def _check(spec: Spec) -> None:
+    _check_keys("the protocol", spec, PROTOCOL)
+    for name, attack in spec.get("attacks", {}).items():
+        _check_keys(f"attacks.{name}", attack, ATTACK)
+    attacks = spec.get("attacks", {})
+    for experiment in spec["experiments"]:
+        where = f"experiment {experiment.get('name', '?')!r}"
+        _check_keys(where, experiment, ALIGNMENT if experiment.get("align") else MARKS)
+        _check_names(where, "attack", experiment.get("attacks", []), attacks)
+        _check_names(where, "method", experiment.get("methods", []), METHODS)
+        if not {"align", "strengths", "limits", "nulls"} & experiment.keys():
+            raise ProtocolError(f"{where} has nothing to do: give it strengths, limits or nulls.")
+    experiments = [experiment["name"] for experiment in spec["experiments"]]
+    for figure in spec.get("figures", []):
+        where = f"figure {figure.get('name', '?')!r}"
+        _check_keys(where, figure, FIGURE)
+        _check_names(where, "experiment", [figure["experiment"]], experiments)
+        _check_names(where, "attack", [figure["series"]] if "series" in figure else [], attacks)
+        if ("y" in figure) == ("ys" in figure):
+            raise ProtocolError(f"{where} needs either y or ys.")
+    for table in spec.get("tables", []):
+        where = f"table {table.get('name', '?')!r}"
+        _check_keys(where, table, TABLE)
+        _check_names(where, "experiment", [table["experiment"]], experiments)
+        for column in table["columns"]:
+            _check_keys(f"{where}, column {column.get('label', '?')!r}", column, COLUMN)
+
+
+def _check_keys(where: str, spec: Spec, allowed: tuple[set[str], set[str]]) -> None:
+    needed, possible = allowed
+    if missing := needed - spec.keys():
+        raise ProtocolError(f"{where} lacks {_list(missing)}.")
+    if unknown := spec.keys() - needed - possible:
+        raise ProtocolError(f"{where} has no {_list(unknown)}; it may have {_list(needed | possible)}.")
+
+
+def _check_names(where: str, kind: str, names: Iterable[str], known: Collection[str]) -> None:
+    for name in names:
+        if name not in known:
+            raise ProtocolError(f"{where} names the {kind} {name!r}, and there is {_list(known) or 'none'}.")
+
+
+def _list(names: Iterable[str]) -> str:
+    return ", ".join(sorted(names))

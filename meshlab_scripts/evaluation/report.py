@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What a run leaves behind: results.csv, times.csv, errors.csv, tables, figures, and report.md with all in order."""
 
 import platform
@@ -15,9 +16,9 @@ from .store import Store
 
 def write_report(protocol: Protocol, cases: list[Case], site: Site, store: Store, folder: Path) -> None:
     """Writes into the folder. All but times.csv, the timed tables and so report.md is the same in every run."""
+    frame = collect(cases, store)
     for part in ("tables", "figures"):
         (folder / part).mkdir(parents=True, exist_ok=True)
-    frame = collect(cases, store)
     untimed, times = split_times(frame)
     failed = untimed.loc[untimed["error"] != "", :"error"]
     for name, rows in {"results": untimed, "times": times, "errors": failed}.items():

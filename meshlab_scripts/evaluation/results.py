@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The results of a protocol as one tidy frame: a row for each case, sorted, the job's fields and then its results."""
 
 from dataclasses import asdict
@@ -12,8 +13,15 @@ INTERNAL = ["mesh_digest", "plugin_digest"]
 SORT = ["experiment", "mesh", "method", "bits", "strength", "limits", "kind", "series", "amount", "iterations", "key"]
 
 
+class NoResults(LookupError):
+    """The store has no result of any of the jobs."""
+
+    def __init__(self) -> None:
+        super().__init__("There are no results of this protocol yet, for these meshes and this plugin. Run it first.")
+
+
 def collect(cases: list[Case], store: Store) -> pd.DataFrame:
-    """All cases that the store has; failed ones have an `error`."""
+    """All cases that the store has; failed ones have an `error`. Raises NoResults where it has none."""
     stored = store.get(case.job for case in cases)
     rows = []
     for case in cases:
@@ -24,6 +32,8 @@ def collect(cases: list[Case], store: Store) -> pd.DataFrame:
         inputs["limits"] = " ".join(f"{name}<={limit:g}" for name, limit in case.job.limits)
         row = {"experiment": case.experiment, "series": case.series, **inputs}
         rows.append({**row, "error": error, **{f"used_{k}" if k in row else k: v for k, v in results.items()}})
+    if not rows:
+        raise NoResults
     frame = pd.DataFrame(rows).drop(columns=INTERNAL)
     given = [*CASE_FIELDS, *(name for name in asdict(cases[0].job) if name not in INTERNAL), "error"]
     measured = sorted({*frame.columns, "detection_ratio", "p_value"} - set(given))

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs jobs on all cores, or on a user's cluster, by dask.distributed."""
 
 import logging

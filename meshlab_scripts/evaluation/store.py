@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The results on disk: one SQLite file, written as they come by one process; killed at any time it is whole."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Markdown tables: ours with the standard deviation over the keys, and the thesis' figure beside it in brackets."""
 
 import math
@@ -5,12 +6,11 @@ import math
 import pandas as pd
 
 from .jobs import METHODS
-from .protocol import Spec
+from .protocol import COLUMN_OPTIONS, Spec
 from .results import select
 
 # Our meshes that are, or come close to, the thesis' own.
 COUNTERPARTS = {"bunny00": "Bunny", "fandisk": "Fandisk"}
-COLUMN_OPTIONS = {"label", "value", "scale", "digits", "over"}
 
 Cells = list[tuple[float, float]]  # mean and deviation
 

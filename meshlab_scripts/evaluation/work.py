@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How a job is done. Each is a function of the job alone; marked meshes and found strengths are kept for the next."""
 
 import json

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Every attack on every mesh, each in a process of its own with limits on time and memory: a result, a refusal, or what
 // must not be. Takes the names of meshes, or runs all of them. Ends with an error where something crashed or did not
 // end, or an attack was refused by all meshes.

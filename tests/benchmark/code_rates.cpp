@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Frame error rates of the payload code over the binary-input Gaussian channel, as CSV.
-// `code_rates small | curves | lengths | all [frames]`
+// `code_rates small | curves | lengths | proofs | all [frames]`, or `code_rates length FRAMES BITS CARRIERS`
 //   small: beside exhaustive maximum likelihood; curves: beside the normal approximation (Polyanskiy, Poor and Verdu
-//   2010); lengths: the distance to it at a frame error rate of 1e-2, and milliseconds a decode, for many n and K.
+//   2010); lengths: the distance to it at a frame error rate of 1e-2, and milliseconds a decode, for many n and K;
+//   proofs: where the key alone proves what it reads.
 
-#include "vcg_ext/payload/polar.h"
+#include "vcg_ext/payload/code.h"
+#include "vcg_ext/payload/evidence.h"
 #include "vcg_ext/key/random.h"
 
 #include <algorithm>
@@ -64,14 +66,6 @@ Frame frame(const PolarCode& code, double decibel, Stream& stream)
     return result;
 }
 
-double agreement(const Bits& word, const std::vector<double>& soft)
-{
-    double sum = 0;
-    for (std::size_t k = 0; k < soft.size(); ++k)
-        sum += word[k] ? soft[k] : -soft[k];
-    return sum;
-}
-
 struct Rate {
     double errors = 0;   ///< part of the frames that were read wrong
     double likelier = 0; ///< part whose wrong word agrees better than the sent one: maximum likelihood errs there too
@@ -111,10 +105,9 @@ double maximum_likelihood(const PolarCode& code, double decibel, int frames)
     int errors = 0;
     for (int i = 0; i < frames; ++i) {
         const Frame sent = frame(code, decibel, stream);
-        const auto less = [&](const Bits& a, const Bits& b) {
-            return agreement(a, sent.soft) < agreement(b, sent.soft);
-        };
-        errors += *std::max_element(words.begin(), words.end(), less) != polar_encode(code, sent.message);
+        const double right = agreement(polar_encode(code, sent.message), sent.soft);
+        errors += std::any_of(words.begin(), words.end(),
+                              [&](const Bits& word) { return agreement(word, sent.soft) > right + 1e-9; });
     }
     return static_cast<double>(errors) / frames;
 }
@@ -176,11 +169,49 @@ void length(int bits, int carriers, int frames)
 void lengths(int frames)
 {
     for (const int carriers : {64, 96, 128, 192, 256, 384, 512, 768, 1024}) {
-        length(carriers / 4 / 8 * 8, carriers, frames);
-        length(carriers * 3 / 8 / 8 * 8, carriers, frames);
-        length(carriers / 2, carriers, frames);
-        if (carriers > 64)
-            length(32, carriers, frames);
+        const int some = carriers > 256 ? frames / 3 : frames;
+        length(carriers / 2, carriers, some);
+        length(carriers / 4, carriers, some);
+        if (carriers > 64 && carriers <= 384 && carriers != 128)
+            length(32, carriers, some);
+    }
+}
+
+/// Part of the frames whose message is right and proven with the key alone, p_message < 1e-6.
+double proven(int bits, int carriers, double decibel, int frames)
+{
+    double weight = 1;
+    for (const Hypothesis& way : hypotheses(carriers))
+        if (way.bits == bits && way.kind == Kind::Text)
+            weight = way.weight;
+    const Code code(bits, carriers, Kind::Text);
+    Stream stream = seeded_stream(1, "code-rates");
+    const double sigma = noise_at(decibel);
+    int found = 0;
+    for (int i = 0; i < frames; ++i) {
+        const Bits message(bits, 1);
+        std::vector<double> soft;
+        for (const std::uint8_t bit : code.encode(message))
+            soft.push_back((bit ? 1 : -1) + sigma * normal(stream));
+        const double p = log_any_message(log_tail(soft, agreement(code.encode(message), soft)), bits);
+        found += log_best_of({{p, weight}}) < -6 && code.decode(soft) == message;
+    }
+    return static_cast<double>(found) / frames;
+}
+
+void proofs(int frames)
+{
+    const int sizes[][2] = {{16, 64},  {24, 64},  {32, 64},  {32, 96},  {32, 128},
+                            {64, 128}, {64, 192}, {64, 256}, {104, 256}};
+    for (const auto& [bits, carriers] : sizes) {
+        const auto at = [&, bits = bits, carriers = carriers](double part) {
+            return threshold(-9, 9, 6, [&](double d) { return proven(bits, carriers, d, frames) < part ? 1.0 : 0.0; });
+        };
+        const double ideal = threshold(-15, 15, 40, [&, bits = bits, carriers = carriers](double d) {
+            return normal_approximation(bits, carriers, d);
+        });
+        std::printf("proof,%d,%d,32,%.2f,%.2f,%.2f,\n", bits, carriers, at(0.5), at(0.95), ideal);
+        std::fflush(stdout);
     }
 }
 
@@ -199,6 +230,12 @@ int main(int argc, char** argv)
         std::printf("# length: bits, carriers, list, Es/N0 in dB of the normal approximation at 1e-2, of the code, "
                     "difference, ms a decode\n");
         lengths(frames);
+    }
+    if (what == "proofs" || what == "all") {
+        std::printf(
+            "# proof: bits, carriers, list, Es/N0 in dB at which the key alone proves 1 of 2 messages and 19 of 20, "
+            "of the normal approximation at 1e-2\n");
+        proofs(std::max(frames / 20, 100));
     }
     if (what == "length" && argc > 4)
         length(std::atoi(argv[3]), std::atoi(argv[4]), frames);

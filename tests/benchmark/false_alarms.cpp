@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Are p-values what they claim? Detections on unmarked meshes and on meshes marked with another key: how often p falls
 // to 1e-1, 1e-2, 1e-3, against the exact chance of that, which for 64 bits is a step below each.
 //

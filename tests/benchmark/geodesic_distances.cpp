@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Geodesic distances as the watermark sees them, one vertex a line: for the comparison with an exact solver and for
 // pictures. Usage: geodesic_distances MESH vertex NUMBER    from a vertex
 //        geodesic_distances MESH key TEXT         from the point that the key chooses

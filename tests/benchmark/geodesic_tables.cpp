@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Geodesic watermarks beside chapter 4 of the thesis: Tables 4.2, 4.3 and 4.5, Figures 4.10 to 4.14, 4.18 and 4.19.
 // Usage: geodesic_tables [bits|distortion|attacks]...; all without an argument.
 
@@ -8,6 +9,7 @@
 #include "vcg_ext/base/weld.h"
 #include "vcg_ext/carrier/statistic.h"
 #include "vcg_ext/carrier/strips.h"
+#include "vcg_ext/geometry/normals.h"
 #include "vcg_ext/key/stream.h"
 #include "vcg_ext/metric/distortion.h"
 #include "vcg_ext/watermark/watermark.h"

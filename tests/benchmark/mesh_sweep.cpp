@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Every mesh of libcgal-demo by every method: marked and read back, or refused with a reason; anything else must not
 // be. Where embedding names a number of bits that the mesh carries, that number is tried too.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The methods of vertex norms on four meshes: distortion beside the thesis' Tables 5.2 and 5.3, what placing cost, and
 // what more sweeps of the sphere placement would bring. Prints Markdown.
 

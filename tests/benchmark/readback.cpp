@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How often embedding by vertex norms reads every bit back from the float coordinates that it wrote, and what became of
 // the rest: refused with a reason, or (never) lost. Four meshes, six methods, 20 keys, 32 to 256 bits.
 

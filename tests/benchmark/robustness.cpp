@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What is left of a message after each attack: mean detection ratio over several keys, of the vertex-norm methods.
 // Usage: robustness [Mean|Variance] [keys] [mesh.off ...]
 

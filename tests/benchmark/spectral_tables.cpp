@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Spectral watermarks beside the vertex-norm methods and the thesis' chapter 3.
 // `spectral_tables readback | distortion | attacks | scale | all [keys]`
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Embedding through pymeshlab against MeshLab's own load of the same file, in the same run.
 
 bunny00 subdivided by Loop's scheme (twice: 603,266 vertices), saved as a binary PLY; each is timed several times,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Random meshes, broken in random ways, through random calls of the library; under the sanitizers (-DSANITIZE=
 // address,undefined), which end the program at the first fault. An Error is a good answer; then, and only then, the
 // surface must be as it was. Each case is made from one number, which is printed where something is wrong.

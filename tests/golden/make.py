@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Makes the golden marks anew: marked meshes of our own, and what detection must read from them.
 
 They pin the format of a mark. Tests read them through the library and through both hosts; so run this only where the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A person's way: find the filter by search in MeshLab's window, fill its dialog, apply, read log and report.
 
 Every step waits for its condition, with a limit, and leaves a picture in build/gui.

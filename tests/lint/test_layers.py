@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Includes in vcg_ext never look up, and no one but a method's own folder asks which method it is."""
 
 import re

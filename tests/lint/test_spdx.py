@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every source file says its licence, in the form that tools read."""
 
 import subprocess

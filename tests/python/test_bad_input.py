@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Bad input through both doors: an error with cause and cure that changes nothing, or a right result.
 
 The text that each got is written to build/bad_input.md.

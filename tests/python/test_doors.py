@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """One answer through every door: the library is the same in both hosts, and so must the bits be."""
 
 from pathlib import Path

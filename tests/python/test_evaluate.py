@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """evaluate.py: the smoke protocol from start to report, killed and resumed, and with jobs that fail."""
 
 import math
@@ -18,9 +19,10 @@ SCRIPTS = ROOT / "meshlab_scripts"
 sys.path.insert(0, str(SCRIPTS))
 
 from evaluation import work  # noqa: E402
-from evaluation.curves import binomial_tail, equal_error_rate  # noqa: E402
+from evaluation.curves import binomial_tail, equal_error_rate, false_positives  # noqa: E402
 from evaluation.frames import WAYS, frames, shift  # noqa: E402
 from evaluation.jobs import Job, Site  # noqa: E402
+from evaluation.protocol import ProtocolError, read_protocol  # noqa: E402
 
 
 def command(protocol: str | Path, work: Path) -> list[str]:
@@ -145,6 +147,92 @@ def test_no_strength_keeps_the_limits_and_is_sought_once(monkeypatch: pytest.Mon
         with pytest.raises(ValueError, match="No strength"):
             work._strength(job, Site(Path(), Path(), tmp_path))
     assert 0 < len(asked) <= work.STEPS
+
+
+SMALL = """
+title = "t"
+meshes = ["fandisk"]
+keys = 1
+attacks.noise = { attack = "Noise", amounts = [0.001] }
+[[experiments]]
+name = "e"
+methods = ["ChoMean"]
+bits = [32]
+strengths = [0.1]
+attacks = ["noise"]
+[[figures]]
+name = "f"
+title = "t"
+experiment = "e"
+x = "amount"
+y = "detection_ratio"
+[[tables]]
+name = "t"
+title = "t"
+experiment = "e"
+rows = ["mesh"]
+columns = [{ label = "l", method = "ChoMean", value = "mrms" }]
+"""
+
+
+def test_protocols_are_read() -> None:
+    for path in sorted((SCRIPTS / "protocols").glob("*.toml")):
+        assert read_protocol(path).experiments
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "texts"),
+    [
+        ("strengths =", "strength =", ["experiment 'e'", "no strength;", "strengths"]),
+        ("strengths = [0.1]", "", ["experiment 'e'", "nothing to do"]),
+        ("amounts =", "amount =", ["attacks.noise", "no amount;"]),
+        ("keys = 1", "key = 1", ["lacks keys"]),
+        ("keys = 1", "keys = 1\nseeds = 1", ["no seeds;"]),
+        ('attacks = ["noise"]', 'attacks = ["noises"]', ["experiment 'e'", "'noises'", "noise"]),
+        ('methods = ["ChoMean"]', 'methods = ["Cho"]', ["'Cho'", "ChoMean"]),
+        ('experiment = "e"\nx', 'experiment = "d"\nx', ["figure 'f'", "'d'"]),
+        ("rows =", "row =", ["table 't'", "lacks rows"]),
+        ("value =", "values =", ["column 'l'", "lacks value"]),
+        ("keys = 1", "keys = ", ["line 4"]),
+    ],
+)
+def test_a_slip_in_a_protocol_is_refused(tmp_path: Path, right: str, wrong: str, texts: list[str]) -> None:
+    path = tmp_path / "slip.toml"
+    path.write_text(SMALL, encoding="utf-8")
+    assert read_protocol(path).keys == 1
+    assert right in SMALL
+    path.write_text(SMALL.replace(right, wrong), encoding="utf-8")
+    with pytest.raises(ProtocolError) as refused:
+        read_protocol(path)
+    for text in [str(path), *texts]:
+        assert text in str(refused.value)
+
+
+def test_a_report_of_nothing_says_so(tmp_path: Path) -> None:
+    done = subprocess.run(
+        [*command("smoke", tmp_path), "--report-only"], check=False, timeout=300, capture_output=True, text=True
+    )
+    assert done.returncode == 2
+    assert "no results of this protocol" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_each_method_has_its_own_bound() -> None:
+    ratios = [0.5, 0.625, 0.75]
+    tails = [binomial_tail(16, ratio) for ratio in ratios]
+    rows = pd.DataFrame(
+        [
+            {"method": method, "bits": 16, "detection_ratio": ratio, "p_value": min(1, tries * tail)}
+            for method, tries in (("L-MMean", 1), ("Spectral", 4), ("ChoMean", 1))
+            for ratio, tail in zip(ratios, tails, strict=True)
+        ]
+    )
+    found = false_positives(rows, np.array([0.3, 0.7]))
+    assert list(found) == ["L-MMean, ChoMean, 16 bits", "Spectral, 16 bits"]
+    for (rate, bound), tries in zip(found.values(), (1, 4), strict=True):
+        assert rate == pytest.approx([1, 1 / 3])
+        assert bound == pytest.approx([min(1, tries * binomial_tail(16, 0.3)), tries * binomial_tail(16, 0.7)])
+    assert list(false_positives(rows[rows["method"] != "Spectral"], np.array([0.5]))) == [""]
 
 
 def test_equal_error_rate() -> None:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Fast marching against a second implementation: exact geodesics on the polyhedron, by pygeodesic."""
 
 import subprocess

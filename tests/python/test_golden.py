@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """pymeshlab reads the marks that were made before, and so the format of a mark has not changed."""
 
 from doors import PyMeshLab

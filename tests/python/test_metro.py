@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Watermark: Measure Distortion beside the Hausdorff Distance filter that both MeshLabs come with.
 
 Metro's MRMS is the larger of its RMS in both directions, over points spread over the faces. Both draw as many points,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The filters in pymeshlab: what they return, what they refuse, and what they leave alone."""
 
 import json
@@ -10,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pymeshlab
 import pytest
-from doors import DETECT, EMBED, FILTERS, MESHES, ROOT, PyMeshLab, Refused, Value
+from doors import CHOICES, DETECT, EMBED, FILTERS, MESHES, ROOT, PyMeshLab, Refused, Value
 
 KEY = "correct horse battery staple"
 MESSAGE = "(c) 2026"
@@ -35,9 +36,15 @@ def marked(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_the_parameters_are_the_contract() -> None:
-    names = {python: list(parameters) for python, parameters in FILTERS.values()}
-    PyMeshLab()
-    assert set(names) <= set(pymeshlab.filter_list())
+    meshes = opened(FANDISK)
+    for name, parameters in FILTERS.values():
+        expected = {
+            parameter.lower(): CHOICES[parameter].index(str(default)) if parameter in CHOICES else default
+            for parameter, (_, default) in parameters.items()
+        }
+        found = meshes.filter_parameter_values(name)
+        assert list(found) == list(expected)
+        assert found == expected
 
 
 def test_parameters_left_out_take_their_defaults(marked: Path) -> None:
@@ -183,14 +190,15 @@ def test_all_else_of_the_users_stays(tmp_path: Path) -> None:
             mesh.vertex_tex_coord_matrix(), mesh.transform_matrix(), meshes.mesh(1).vertex_matrix(),
         ]  # fmt: skip
 
-    before, positions = rest(), meshes.mesh(0).vertex_matrix()
+    before, positions, box = rest(), meshes.mesh(0).vertex_matrix(), meshes.mesh(0).bounding_box().diagonal()
     PyMeshLab().apply(meshes, EMBED, **MARK)
     moved = meshes.mesh(0)
     assert not np.array_equal(moved.vertex_matrix(), positions)
     for old, new in zip(before, rest(), strict=True):
         np.testing.assert_array_equal(old, new)
+    assert moved.bounding_box().diagonal() != box  # here the mark moves an end of it
     assert moved.bounding_box().diagonal() == pytest.approx(
-        np.linalg.norm(np.ptp(moved.vertex_matrix(), axis=0)), rel=0.3
+        np.linalg.norm(np.ptp(moved.vertex_matrix(), axis=0)), rel=1e-12
     )
     corner = moved.vertex_matrix()[moved.face_matrix()]
     normals = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])

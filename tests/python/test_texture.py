@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A textured mesh through both doors: the texture stays, and the seams stay closed."""
 
 from pathlib import Path

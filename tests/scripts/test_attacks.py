@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Watermark: Attack and Watermark: Measure Distortion through meshlabserver, by the scripts that users get."""
 
 import re

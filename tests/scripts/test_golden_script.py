@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """meshlabserver reads the marks that were made before, and so the format of a mark has not changed."""
 
 import pytest

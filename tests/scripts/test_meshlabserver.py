@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Regression through meshlabserver scripts: embed, write a file, detect from the file."""
 
 import json

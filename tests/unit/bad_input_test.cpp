@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Every kind of mesh that no one should hand in, through every function of the library: an error that says what to do
 // and leaves the surface bit for bit as it was, or a right result.
 

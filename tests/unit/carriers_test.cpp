@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vcg_ext/carrier/carriers.h"
 #include "vcg_ext/carrier/statistic.h"
 
@@ -29,8 +30,8 @@ TEST(Statistics, OfAUniformCarrierAreTheThresholds)
     EXPECT_NEAR(statistics(carriers, Statistic::Variance)[0], 1.0 / 3, 1e-8);
 }
 
-// The variance over many carriers of the statistic is the square of the standard error, here over all triples of a
-// grid.
+// The variance over many carriers of the statistic is the square of the standard error, here over all triples
+// of a grid.
 TEST(StandardError, IsTheSpreadOfTheStatistic)
 {
     constexpr int grid = 40;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vcg_ext/base/error.h"
 #include "vcg_ext/base/progress.h"
 #include "vcg_ext/metric/distortion.h"
@@ -12,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <map>
 
 using namespace vcg_ext;
 
@@ -165,6 +167,41 @@ TEST(Distortion, RefusesWhatIsNoSurface)
     }
     EXPECT_THROW((void)measure(ball, ball, {-1, 0}), Error);
     EXPECT_THROW((void)measure(ball, ball, {}, [](int, const char*) { return false; }), Cancelled);
+}
+
+TEST(Distortion, CanBeStoppedWithinEachPhase)
+{
+    const Surface ball = shapes::sphere(4);
+    const Surface other = shapes::sphere(3);
+    DistortionOptions options;
+    options.samples = 100000;
+    std::map<std::string, std::vector<int>> told;
+    (void)measure(ball, other, options, [&](int percent, const char* phase) {
+        told[phase].push_back(percent);
+        return true;
+    });
+    std::vector<int> all;
+    for (const char* phase : {"Search trees", "Reference to measured", "Measured to reference", "Vertices", "Curvature",
+                              "Structural distance"}) {
+        EXPECT_GE(told[phase].size(), 2u) << phase;
+        EXPECT_TRUE(std::is_sorted(told[phase].begin(), told[phase].end())) << phase;
+        all.insert(all.end(), told[phase].begin(), told[phase].end());
+    }
+    EXPECT_TRUE(std::is_sorted(all.begin(), all.end()));
+    for (std::size_t last = 0; last < all.size(); last += 3) {
+        std::size_t calls = 0;
+        EXPECT_THROW((void)measure(ball, other, options, [&](int, const char*) { return calls++ < last; }), Cancelled);
+        EXPECT_EQ(calls, last + 1);
+    }
+}
+
+TEST(Distortion, TakesAsManySamplesAsThereAreNumbers)
+{
+    const Surface ball = shapes::sphere(1);
+    DistortionOptions options;
+    options.samples = std::numeric_limits<int>::max();
+    int calls = 0;
+    EXPECT_THROW((void)measure(ball, ball, options, [&](int, const char*) { return ++calls < 5; }), Cancelled);
 }
 
 } // namespace

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/load.h"
 #include "support/shapes.h"
 #include "vcg_ext/geometry/fast_marching.h"
@@ -22,10 +23,9 @@ struct Errors {
 
 /// Relative errors of the march at the vertices that lie farther than `least` from the source.
 template <class Exact>
-Errors errors(const Surface& s, const SurfacePoint& source, double least, const MarchOptions& options,
-              const Exact& exact)
+Errors errors(const Surface& s, const SurfacePoint& source, double least, const Exact& exact)
 {
-    const std::vector<Arrival> arrivals = march(s, around(s), source, options);
+    const std::vector<Arrival> arrivals = march(s, around(s), source);
     Errors result;
     int count = 0;
     for (std::size_t v = 0; v < arrivals.size(); ++v) {
@@ -73,8 +73,8 @@ TEST(FastMarching, CylinderUnrollsToItsPlane)
     const double edge = 0.1;
     const Surface flat = shapes::triangular_grid(4.45, 4, edge);
     Surface s = flat;
-    // Every half edge is one side of the prism, so faces lie on two of its sides: they bend, the error is that of
-    // chords.
+    // Every half edge is one side of the prism, so faces lie on two of its sides: they bend, the error is that
+    // of chords.
     const double radius = 9 / (2 * std::acos(-1.0));
     for (Point& p : s.points)
         p = Point(radius * std::cos(p.x() / radius), radius * std::sin(p.x() / radius), p.y());
@@ -84,9 +84,9 @@ TEST(FastMarching, CylinderUnrollsToItsPlane)
         return Point((surface.points[a] + surface.points[b] + surface.points[c]) / 3);
     };
     const Point from = middle(flat);
-    const Errors e = errors(s, {face, middle(s)}, 0.4, {}, [&](int v) { return (flat.points[v] - from).norm(); });
-    // A chord of a twentieth turn in ninety is shorter than its arc by a factor sin(x)/x, x = edge / (2
-    // radius): 2.0e-4.
+    const Errors e = errors(s, {face, middle(s)}, 0.4, [&](int v) { return (flat.points[v] - from).norm(); });
+    // A chord of a twentieth turn in ninety is shorter than its arc by a factor sin(x)/x, x = edge / (2 radius):
+    // 2.0e-4.
     EXPECT_LT(e.largest, 2.1e-4 + 1e-4);
 }
 
@@ -98,7 +98,7 @@ TEST(FastMarching, FirstOrderOnTheSphere)
         const SurfacePoint source = *farthest_hit(s, Point::Zero(), {0.3, 0.4, 0.5});
         const Point u = source.position.normalized();
         const double pi = std::acos(-1.0);
-        const Errors e = errors(s, source, 0.1 * pi, {},
+        const Errors e = errors(s, source, 0.1 * pi,
                                 [&](int v) { return std::atan2(u.cross(s.points[v]).norm(), u.dot(s.points[v])); });
         if (level > 3) {
             EXPECT_LT(e.rms, before / 1.9) << "level " << level; // half the edge, half the error
@@ -106,31 +106,6 @@ TEST(FastMarching, FirstOrderOnTheSphere)
         before = e.rms;
     }
     EXPECT_LT(before, 0.001);
-}
-
-TEST(FastMarching, PlaneWaveConvergesToo)
-{
-    for (const bool unfold : {false, true}) {
-        const Surface s = shapes::sphere(6);
-        const SurfacePoint source = *farthest_hit(s, Point::Zero(), {0.3, 0.4, 0.5});
-        const Point u = source.position.normalized();
-        const Errors e = errors(s, source, 0.3, {Wave::Plane, unfold},
-                                [&](int v) { return std::atan2(u.cross(s.points[v]).norm(), u.dot(s.points[v])); });
-        EXPECT_LT(e.rms, 0.01);
-    }
-}
-
-/// Unfolding matters where triangles are obtuse: a grid sheared until all its angles of 60 degrees became 30 or 120.
-TEST(FastMarching, UnfoldingHelpsThePlaneWaveAtObtuseAngles)
-{
-    Surface s = shapes::triangular_grid(10, 10, 0.1);
-    for (Point& p : s.points)
-        p.x() += 1.2 * p.y();
-    const SurfacePoint source = *farthest_hit(s, {11.02, 5.03, -1}, {0, 0, 1});
-    const auto exact = [&](int v) { return (s.points[v] - source.position).norm(); };
-    const Errors folded = errors(s, source, 1, {Wave::Plane, false}, exact);
-    const Errors unfolded = errors(s, source, 1, {Wave::Plane, true}, exact);
-    EXPECT_LT(unfolded.rms, 0.9 * folded.rms);
 }
 
 TEST(FastMarching, NeverShorterThanTheStraightLineNorLongerThanTheEdges)
@@ -153,19 +128,17 @@ TEST(FastMarching, ArrivalRepeatsTheMarch)
     const Surface s = load("elephant.off");
     const VertexFaces faces = around(s);
     const SurfacePoint source{10, s.points[s.triangles[10][1]]};
-    for (const MarchOptions options : {MarchOptions{}, MarchOptions{Wave::Plane, false}}) {
-        const std::vector<Arrival> marched = march(s, faces, source, options);
-        std::vector<double> known(s.points.size());
-        for (int v = 0; v < static_cast<int>(marched.size()); ++v) {
-            if (std::count(s.triangles[10].begin(), s.triangles[10].end(), v) > 0)
-                continue;
-            for (std::size_t w = 0; w < known.size(); ++w)
-                known[w] = marched[w].distance <= marched[v].distance ? marched[w].distance : INFINITY;
-            known[v] = INFINITY;
-            const Arrival again = arrival(s, faces, known, v, s.points[v], options);
-            ASSERT_NEAR(again.distance, marched[v].distance, 1e-14);
-            ASSERT_LT((again.gradient - marched[v].gradient).norm(), 1e-6);
-        }
+    const std::vector<Arrival> marched = march(s, faces, source);
+    std::vector<double> known(s.points.size());
+    for (int v = 0; v < static_cast<int>(marched.size()); ++v) {
+        if (std::count(s.triangles[10].begin(), s.triangles[10].end(), v) > 0)
+            continue;
+        for (std::size_t w = 0; w < known.size(); ++w)
+            known[w] = marched[w].distance <= marched[v].distance ? marched[w].distance : INFINITY;
+        known[v] = INFINITY;
+        const Arrival again = arrival(s, faces, known, v, s.points[v]);
+        ASSERT_NEAR(again.distance, marched[v].distance, 1e-14);
+        ASSERT_LT((again.gradient - marched[v].gradient).norm(), 1e-6);
     }
 }
 

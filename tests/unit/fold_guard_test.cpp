@@ -1,4 +1,6 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/load.h"
+#include "support/shapes.h"
 #include "vcg_ext/key/key.h"
 #include "vcg_ext/key/stream.h"
 #include "vcg_ext/placement/fold_guard.h"
@@ -66,6 +68,20 @@ TEST(Folded, SeesATurnAndAFlatteningButNoFaceWithoutAnArea)
     EXPECT_FALSE(folded(cover, 0, Point(0, 0, 0.06)));
     EXPECT_TRUE(folded(cover, 0, Point(0, 0, 0.04)));
     EXPECT_FALSE(folded(cover, 1, Point(0, 0, -1)));
+}
+
+TEST(Folded, OneVertexSeesWhatAllFacesDo)
+{
+    const Surface ball = shapes::sphere(3);
+    const Cover cover(ball);
+    int folds = 0;
+    for (int v = 0; v < static_cast<int>(ball.points.size()); v += 7) {
+        Points moved = ball.points;
+        moved[v] *= 1 - 0.01 * (v % 20);
+        EXPECT_EQ(folds_around(cover, ball.points, v, moved[v]), !folded_faces(cover, moved).empty());
+        folds += folds_around(cover, ball.points, v, moved[v]);
+    }
+    EXPECT_GT(folds, 5);
 }
 
 } // namespace

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/load.h"
 #include "support/shapes.h"
 #include "vcg_ext/placement/fold_guard.h"
@@ -54,7 +55,7 @@ TEST_P(EveryScheme, AFreshMarchFindsEachVertexAtItsTarget)
     setting.wave(0.3, 0.01, 0.02);
     constexpr double tolerance = 1e-5;
     const FrontPlacement placed =
-        place_front(setting.cover, setting.arrivals, setting.targets, tolerance, {GetParam(), {}});
+        place_front(setting.cover, setting.arrivals, setting.targets, tolerance, {GetParam()});
     const std::vector<double> misses = setting.misses(placed.points);
     const auto far = std::count_if(misses.begin(), misses.end(), [](double miss) { return miss > 2 * tolerance; });
     EXPECT_LE(far, static_cast<long>(misses.size()) / 500);
@@ -67,7 +68,7 @@ TEST_P(EveryScheme, OnAPlaneMovesAlongTheFrontInThePlane)
 {
     Setting setting(shapes::triangular_grid(6, 6, 0.1), {3.02, 3.03, -1}, {0, 0, 1});
     setting.wave(0.5, 0.01, 0.05);
-    const FrontPlacement placed = place_front(setting.cover, setting.arrivals, setting.targets, 1e-7, {GetParam(), {}});
+    const FrontPlacement placed = place_front(setting.cover, setting.arrivals, setting.targets, 1e-7, {GetParam()});
     for (std::size_t v = 0; v < placed.points.size(); ++v) {
         const Point way = setting.surface.points[v] - setting.source.position;
         const double radius = way.norm();
@@ -86,7 +87,7 @@ TEST_P(EveryScheme, FoldsNothingHoweverFarTheTargets)
     const double size = bounding_diagonal(setting.surface);
     setting.wave(0.1 * size, 0.05 * size, 0.01 * size);
     const FrontPlacement placed =
-        place_front(setting.cover, setting.arrivals, setting.targets, 1e-5 * size, {GetParam(), {}});
+        place_front(setting.cover, setting.arrivals, setting.targets, 1e-5 * size, {GetParam()});
     EXPECT_TRUE(folded_faces(setting.cover, placed.points).empty());
     EXPECT_GT(placed.counts.unconverged, 0);
 }
@@ -98,7 +99,7 @@ TEST_P(EveryScheme, MovesNothingThatHasNoTargetOrIsThere)
     for (std::size_t v = 0; v < setting.targets.size(); ++v)
         if (setting.arrivals[v].distance > 2)
             setting.targets[v] = nan;
-    const FrontPlacement placed = place_front(setting.cover, setting.arrivals, setting.targets, 1e-6, {GetParam(), {}});
+    const FrontPlacement placed = place_front(setting.cover, setting.arrivals, setting.targets, 1e-6, {GetParam()});
     for (std::size_t v = 0; v < setting.targets.size(); ++v)
         if (std::isnan(setting.targets[v])) {
             EXPECT_EQ(placed.points[v], setting.surface.points[v]);
@@ -107,8 +108,7 @@ TEST_P(EveryScheme, MovesNothingThatHasNoTargetOrIsThere)
         setting.targets[v] = setting.arrivals[v].distance;
     for (const int v : setting.surface.triangles[setting.source.face])
         setting.targets[v] = nan;
-    const FrontPlacement nowhere =
-        place_front(setting.cover, setting.arrivals, setting.targets, 1e-6, {GetParam(), {}});
+    const FrontPlacement nowhere = place_front(setting.cover, setting.arrivals, setting.targets, 1e-6, {GetParam()});
     EXPECT_EQ(nowhere.counts.total(), 0);
     EXPECT_EQ(nowhere.points, setting.surface.points);
 }
@@ -131,7 +131,7 @@ TEST(Front, PredictingCostsLessDistanceFromTheSurfaceThanFollowing)
     Setting setting(bent, {1.02, 1.03, -1}, {0, 0, 1});
     setting.wave(0.4, 0.005, 0.05);
     const auto off_surface = [&](FrontScheme scheme) {
-        const FrontPlacement placed = place_front(setting.cover, setting.arrivals, setting.targets, 1e-6, {scheme, {}});
+        const FrontPlacement placed = place_front(setting.cover, setting.arrivals, setting.targets, 1e-6, {scheme});
         double sum = 0;
         for (const Point& p : placed.points) // the bent sheet is where x = 2 or z = 0
             sum += std::pow(std::min(std::abs(p.x() - 2), std::abs(p.z())), 2);

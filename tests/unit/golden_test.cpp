@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The library reads the marks that were made before: the format of a mark has not changed. tests/golden/make.py
 #include "support/load.h"
 #include "vcg_ext/method/methods.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vcg_ext/base/error.h"
 #include "vcg_ext/key/key.h"
 #include "vcg_ext/key/stream.h"

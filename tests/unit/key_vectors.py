@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Prints the test vectors of key_test.cpp by a second implementation: argon2-cffi, hashlib's BLAKE2b, and RFC 8439's
 ChaCha20 core (with the original 64-bit counter) written out here. Needs `pip install argon2-cffi`."""
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Marks upon marks: the same again, and a second key's over the first.
 
 #include "support/load.h"

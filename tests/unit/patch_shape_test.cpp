@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vcg_ext/placement/patch_shape.h"
 
 #include <Eigen/Geometry>
@@ -105,8 +106,8 @@ TEST(PatchShape, WithoutNormalsItIsTheClosedForm)
 
 TEST(PatchShape, IsTheLeastAmongChangesOfTheSameRatio)
 {
-    // Any other move to the same ratio costs more: here scalings of the axes, of which (3.21) and the closed form are
-    // two.
+    // Any other move to the same ratio costs more: here scalings of the axes, of which (3.21) and the closed
+    // form are two.
     const Cloud cloud(300);
     const PatchShape shape = cloud.shape();
     const double ratio = 15;

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vcg_ext/base/error.h"
 #include "vcg_ext/base/weld.h"
 #include "vcg_ext/carrier/patches.h"
 
@@ -122,6 +124,14 @@ TEST(Patches, OfTheThesisHaveEqualAreasToo)
     const double median = area[area.size() / 2];
     for (const double a : area)
         EXPECT_NEAR(a / median, 1, 0.25); // a face at a border counts to one patch, here by thirds to both
+}
+
+TEST(Patches, RefuseASurfaceWithoutArea)
+{
+    const Surface line{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {{0, 1, 2}, {1, 2, 3}}};
+    const Frame frame = principal_frame(line);
+    EXPECT_THROW((void)equal_area_patches(line, edge_graph(line), frame, 2, 4, 0.1), Error);
+    EXPECT_THROW((void)thesis_patches(line, frame, 2, 8, 0.1), Error);
 }
 
 } // namespace

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vcg_ext/key/stream.h"
 #include "vcg_ext/metric/perceptual.h"
 
@@ -27,14 +28,17 @@ TEST(Curvature, OfAPlaneIsNone)
 {
     Surface grid = shapes::triangular_grid(1, 1, 0.1);
     grid = shapes::moved(grid, 1, 0.7, {1, 2, 3}, {0, 0, 0});
+    const VertexFaces around = vertex_faces(static_cast<int>(grid.points.size()), grid.triangles);
     const std::vector<double> k = mean_curvature(grid);
-    for (std::size_t v = 0; v < k.size(); ++v)
-        if ((grid.points[v] - grid.points[0]).norm() > 0) {
-            ASSERT_TRUE(std::isfinite(k[v]));
-        }
-    // An inner vertex; at a border the sum over the faces is no curvature.
-    const auto inner = std::min_element(k.begin(), k.end());
-    EXPECT_LT(*inner, 1e-4);
+    int inner = 0;
+    for (int v = 0; v < static_cast<int>(k.size()); ++v) {
+        ASSERT_TRUE(std::isfinite(k[v]));
+        if (around.count(v) < 6)
+            continue; // at a border the sum over the faces is no curvature
+        EXPECT_LT(k[v], 1e-9);
+        ++inner;
+    }
+    EXPECT_EQ(inner, 90);
 }
 
 TEST(Msdm, OfTheSameMeshIsZero)
@@ -53,7 +57,7 @@ TEST(Msdm, GrowsWithNoise)
         EXPECT_GT(now, 1.05 * last);
         last = now;
     }
-    EXPECT_LT(last, 1.1);
+    EXPECT_LT(last, 1); // beyond are curvatures that fall as the other's rise, not such as have nothing in common
 }
 
 TEST(Msdm, DoesNotMindSizeOrPosition)
@@ -69,8 +73,8 @@ TEST(Msdm, DoesNotMindSizeOrPosition)
 
 TEST(Msdm, NoiseShowsMoreOnASmoothRegion)
 {
-    // A sphere whose northern half is rough. The same displacements, of equal MRMS, on the smooth and on the rough
-    // half.
+    // A sphere whose northern half is rough. The same displacements, of equal MRMS, on the smooth and on
+    // the rough half.
     Surface ball = shapes::sphere(5);
     Stream draws = seeded_stream(5, "roughness");
     for (Point& p : ball.points)

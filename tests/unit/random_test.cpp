@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vcg_ext/key/random.h"
 #include "vcg_ext/key/stream.h"
 
@@ -40,6 +41,18 @@ TEST(Random, DirectionsAreOfUnitLength)
         EXPECT_NEAR(direction<3>(draws).norm(), 1, 1e-15);
         EXPECT_NEAR(direction<4>(draws).norm(), 1, 1e-15);
     }
+}
+
+TEST(Random, IntegerDirectionsAreTheFormats)
+{
+    Stream draws = seeded_stream(4, "test");
+    EXPECT_EQ(integer_direction(draws), Point(535779, -477669, 564160));
+    EXPECT_EQ(integer_direction(draws), Point(654940, 752227, 162128));
+    Point mean = Point::Zero();
+    constexpr int count = 10000;
+    for (int i = 0; i < count; ++i)
+        mean += integer_direction(draws).normalized() / count;
+    EXPECT_LT(mean.norm(), std::sqrt(16.3 / (3 * count))); // 3 n |mean|^2 is chi^2 of 3 degrees: p = 1e-3
 }
 
 } // namespace

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/load.h"
 #include "support/shapes.h"
 #include "vcg_ext/geometry/ray.h"

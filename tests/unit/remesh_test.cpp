@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vcg_ext/attack/remesh.h"
 #include "vcg_ext/base/error.h"
 
@@ -6,6 +7,7 @@
 #include "support/topology.h"
 #include "vcg_ext/geometry/closest.h"
 #include "vcg_ext/geometry/moments.h"
+#include "vcg_ext/geometry/size.h"
 
 #include <gtest/gtest.h>
 

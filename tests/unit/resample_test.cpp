@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vcg_ext/attack/resample.h"
 #include "vcg_ext/base/progress.h"
 

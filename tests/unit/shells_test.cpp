@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/load.h"
 #include "vcg_ext/base/error.h"
 #include "vcg_ext/base/parallel.h"
@@ -11,8 +12,8 @@ using namespace vcg_ext;
 
 namespace {
 
-// A pyramid over the unit square, worked out by hand: sum A(v) v over sum A(v) with A(v) the areas of the faces around
-// v.
+// A pyramid over the unit square, worked out by hand: sum A(v) v over sum A(v) with A(v) the areas of the
+// faces around v.
 TEST(AreaCentre, OfAPyramid)
 {
     const Surface pyramid{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}},

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/load.h"
 #include "vcg_ext/carrier/shells.h"
 #include "vcg_ext/carrier/statistic.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/load.h"
 #include "support/topology.h"
 #include "vcg_ext/base/error.h"
@@ -5,6 +6,7 @@
 #include "vcg_ext/base/progress.h"
 #include "vcg_ext/base/weld.h"
 #include "vcg_ext/carrier/statistic.h"
+#include "vcg_ext/geometry/normals.h"
 #include "vcg_ext/placement/cover.h"
 #include "vcg_ext/watermark/watermark.h"
 

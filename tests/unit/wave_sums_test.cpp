@@ -27,8 +27,8 @@ TEST(Turns, SineAndCosineAreThoseOfTheLibrary)
         const double x = i * 0.00137;
         double s, c;
         sine_cosine(x, s, c);
-        ASSERT_NEAR(s, std::sin(x), 1e-13 + 4e-16 * std::abs(x)) << x;
-        ASSERT_NEAR(c, std::cos(x), 1e-13 + 4e-16 * std::abs(x)) << x;
+        ASSERT_NEAR(s, std::sin(x), 2e-13 + 4e-16 * std::abs(x)) << x;
+        ASSERT_NEAR(c, std::cos(x), 2e-13 + 4e-16 * std::abs(x)) << x;
     }
 }
 
@@ -50,7 +50,7 @@ TEST(WaveSums, BoxHasItsTextbookTransform)
 TEST(WaveSums, TrianglesOfAllSizesMakeTheSameSolid)
 {
     // A tetrahedron as four triangles, and with one side cut into ever smaller ones: each form of the integral is
-    // used, from divided differences to the shortest series.
+    // used: divided differences, series by triangle, and at last cells (4,096 triangles and more).
     Surface whole{{{0, 0, 0}, {3, 0.2, 0.1}, {0.3, 1.7, 0}, {0.5, 0.1, 0.8}},
                   {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
     const Points waves{{5, 7, 11}, {0, 0, 12}, {-8, 15, 3}, {14, 0.1, 0}, {3, 4, 9}};
@@ -67,7 +67,7 @@ TEST(WaveSums, TrianglesOfAllSizesMakeTheSameSolid)
         cut.triangles = finer;
         const std::vector<Complex> found = solid_transform(cut.points, cut.triangles, waves);
         for (std::size_t k = 0; k < waves.size(); ++k)
-            EXPECT_LT(std::abs(found[k] - exact[k]), 1e-8) << round << ": " << waves[k].transpose();
+            EXPECT_LT(std::abs(found[k] - exact[k]), round < 5 ? 1e-8 : 1e-7) << round << ": " << waves[k].transpose();
     }
 }
 

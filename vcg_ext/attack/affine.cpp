@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "affine.h"
 
 #include "../key/random.h"
@@ -10,9 +11,7 @@ namespace vcg_ext {
 
 Points affine(const Points& points, double amount, std::uint64_t seed)
 {
-    Eigen::AlignedBox3d box;
-    for (const Point& p : points)
-        box.extend(p);
+    const Eigen::AlignedBox3d box = bounding_box(points);
     Stream stream = seeded_stream(seed, "affine");
     Eigen::Matrix3d change;
     for (double& entry : change.reshaped())

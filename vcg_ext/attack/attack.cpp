@@ -1,8 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "attack.h"
 
 #include "../base/check.h"
 #include "../base/progress.h"
+#include "../base/text.h"
 #include "../base/weld.h"
+#include "../geometry/size.h"
 #include "affine.h"
 #include "crop.h"
 #include "isosurface.h"
@@ -18,13 +21,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace vcg_ext {
 
 namespace {
 
-using Work = Surface (*)(const Surface&, const Welded&, const AttackReport&, const Progress&);
+/// Gives the attacked surface; welds what needs it.
+using Work = Surface (*)(const Surface&, const AttackReport&, const Progress&);
 
 struct Row {
     Attack attack;
@@ -84,54 +87,56 @@ const std::vector<Row>& rows()
 {
     static const std::vector<Row> table = {
         {Attack::Noise, "Noise", seeded(moves("displacement over the farthest norm", 0.003, 0, 0.1)),
-         [](const Surface& s, const Welded&, const AttackReport& r, const Progress&) {
+         [](const Surface& s, const AttackReport& r, const Progress&) {
              return with_positions(s, noise(s, r.amount, r.seed));
          }},
         {Attack::Smooth, "Smooth",
          repeated(moves("lambda, the part of the way to the neighbours' mean", 0.5, 0, 1), 10, 1000),
-         [](const Surface& s, const Welded&, const AttackReport& r, const Progress& progress) {
+         [](const Surface& s, const AttackReport& r, const Progress& progress) {
              return with_positions(s, smooth(s, r.amount, r.iterations, progress));
          }},
         {Attack::Simplify, "Simplify", rebuilds("part of the faces removed", 0.5, 0, 0.999),
-         [](const Surface&, const Welded& w, const AttackReport& r, const Progress& progress) {
-             const std::size_t faces = w.surface.triangles.size();
-             return simplify(w.surface, static_cast<int>(faces - part(r.amount, faces)), progress);
+         [](const Surface& s, const AttackReport& r, const Progress& progress) {
+             const Surface welded = weld(s).surface;
+             const std::size_t faces = welded.triangles.size();
+             return simplify(welded, static_cast<int>(faces - part(r.amount, faces)), progress);
          }},
         {Attack::Quantize, "Quantize", whole(moves("bits per axis", 8, 2, 24)),
-         [](const Surface& s, const Welded&, const AttackReport& r, const Progress&) {
+         [](const Surface& s, const AttackReport& r, const Progress&) {
              return with_positions(s, quantize(s.points, static_cast<int>(r.amount)));
          }},
         {Attack::Resample, "Resample", rebuilds("vertices kept, as a part", 0.5, 0.01, 4),
-         [](const Surface&, const Welded& w, const AttackReport& r, const Progress& progress) {
-             return resample(w.surface, static_cast<int>(part(r.amount, w.surface.points.size())), progress);
+         [](const Surface& s, const AttackReport& r, const Progress& progress) {
+             const Surface welded = weld(s).surface;
+             return resample(welded, static_cast<int>(part(r.amount, welded.points.size())), progress);
          }},
         {Attack::Remesh, "Remesh",
          repeated(rebuilds("target edge length over the mean edge length", 1, 0.2, 10), 10, 100),
-         [](const Surface&, const Welded& w, const AttackReport& r, const Progress& progress) {
-             return remesh(w.surface, r.amount * mean_edge_length(w.surface), r.iterations, progress);
+         [](const Surface& s, const AttackReport& r, const Progress& progress) {
+             const Surface welded = weld(s).surface;
+             return remesh(welded, r.amount * mean_edge_length(welded), r.iterations, progress);
          }},
         {Attack::Isosurface, "Isosurface", rebuilds("cell size over the bounding box's diagonal", 0.005, 0.002, 0.1),
-         [](const Surface&, const Welded& w, const AttackReport& r, const Progress& progress) {
-             return isosurface(w.surface, r.amount * bounding_diagonal(w.surface), progress);
+         [](const Surface& s, const AttackReport& r, const Progress& progress) {
+             const Surface welded = weld(s).surface;
+             return isosurface(welded, r.amount * bounding_diagonal(welded), progress);
          }},
         {Attack::Subdivide, "Subdivide", repeated(AttackRange(), 1, 6),
-         [](const Surface&, const Welded& w, const AttackReport& r, const Progress& progress) {
-             return subdivide(w.surface, r.iterations, progress);
+         [](const Surface& s, const AttackReport& r, const Progress& progress) {
+             return subdivide(weld(s).surface, r.iterations, progress);
          }},
         {Attack::Crop, "Crop", seeded(rebuilds("part of the faces removed", 0.3, 0, 0.95)),
-         [](const Surface& s, const Welded&, const AttackReport& r, const Progress&) {
-             return crop(s, r.amount, r.seed);
-         }},
+         [](const Surface& s, const AttackReport& r, const Progress&) { return crop(s, r.amount, r.seed); }},
         {Attack::Similarity, "Similarity", seeded(moves(nullptr, 0, 0, 0)),
-         [](const Surface& s, const Welded&, const AttackReport& r, const Progress&) {
+         [](const Surface& s, const AttackReport& r, const Progress&) {
              return with_positions(s, similarity(s.points, r.seed));
          }},
         {Attack::Affine, "Affine", seeded(moves("largest relative stretch or shear", 0.1, 0, 0.5)),
-         [](const Surface& s, const Welded&, const AttackReport& r, const Progress&) {
+         [](const Surface& s, const AttackReport& r, const Progress&) {
              return with_positions(s, affine(s.points, r.amount, r.seed));
          }},
         {Attack::Reorder, "Reorder", seeded(AttackRange()),
-         [](const Surface& s, const Welded&, const AttackReport& r, const Progress&) { return reorder(s, r.seed); }},
+         [](const Surface& s, const AttackReport& r, const Progress&) { return reorder(s, r.seed); }},
     };
     return table;
 }
@@ -142,13 +147,6 @@ const Row& row(Attack attack)
     if (at >= rows().size())
         throw Error("There is no attack number " + std::to_string(at) + ".");
     return rows()[at];
-}
-
-std::string text(double number)
-{
-    std::ostringstream stream;
-    stream << number;
-    return stream.str();
 }
 
 double checked_amount(const Row& row, double amount)
@@ -213,7 +211,8 @@ AttackReport apply_attack(Surface& surface, const AttackOptions& options, const 
     result.positions_only = attack.range.positions_only;
 
     report(progress, 0, attack.name);
-    Surface attacked = attack.work(surface, checked_weld(surface), result, progress);
+    check_surface(surface);
+    Surface attacked = attack.work(surface, result, progress);
     report(progress, 100, attack.name);
     if (attacked.triangles.empty())
         throw Error(std::string(attack.name) + " would leave no face of the mesh. Choose a weaker attack.");

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../base/error.h"
 #include "../base/progress.h"
@@ -60,11 +61,10 @@ struct AttackReport {
     int vertices = 0;            ///< afterwards
     int faces = 0;               ///< afterwards
     bool positions_only = false; ///< vertices and faces kept their number and order: writing positions back is enough
-    std::vector<std::string> warnings;
 };
 
-/// Does to `surface` what a user or an adversary might. Same input, same result: on any machine, at any number of
-/// threads.
+/// Does to `surface` what a user or an adversary might. Same input, same result: on any machine, at any
+/// number of threads.
 ///
 /// Vertices at one position move together (see weld()), so a mesh without shared vertices stays closed. Attacks that
 /// rebuild the mesh weld it first, and give back a welded one.

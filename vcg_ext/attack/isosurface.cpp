@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "isosurface.h"
 
 #include "../base/mesh.h"
@@ -59,7 +60,7 @@ private:
         const double fa = value(a[0], a[1], a[2]);
         const double fb = value(b[0], b[1], b[2]);
         const Point p = node(a[0], a[1], a[2]) + fa / (fa - fb) * (node(b[0], b[1], b[2]) - node(a[0], a[1], a[2]));
-        v->P() = vcg::Point3d(p.x(), p.y(), p.z());
+        v->P() = to_vcg(p);
     }
 
     Point origin_;
@@ -182,9 +183,7 @@ Surface isosurface(const Surface& surface, double cell, const Progress& progress
         throw Error("The signed distance needs a closed mesh, but " + std::to_string(odd) +
                     " edges are borders or have an odd number of faces. Close the holes and repair these edges first.");
 
-    Eigen::AlignedBox3d box;
-    for (const Point& p : surface.points)
-        box.extend(p);
+    const Eigen::AlignedBox3d box = bounding_box(surface.points);
     constexpr int margin = 3;
     std::array<int, 3> size{};
     for (int axis = 0; axis < 3; ++axis)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "quantize.h"
 
 #include <cmath>
@@ -7,14 +8,9 @@ namespace vcg_ext {
 Points quantize(const Points& points, int bits)
 {
     Points result = points;
-    if (points.empty())
-        return result;
-    Point low = points[0];
-    Point high = points[0];
-    for (const Point& p : points) {
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
-    }
+    const Eigen::AlignedBox3d box = bounding_box(points);
+    const Point low = box.min();
+    const Point high = box.max();
     const double steps = std::ldexp(1.0, bits) - 1;
     for (Point& p : result)
         for (int axis = 0; axis < 3; ++axis)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "remesh.h"
 
 #include "../base/mesh.h"
@@ -31,8 +32,7 @@ double faces_in_a_cell(const Surface& surface)
     const Eigen::AlignedBox3d box = bounding_box(surface);
     const Point extent = box.sizes();
     vcg::Point3i cells;
-    vcg::BestDim(static_cast<long long>(surface.triangles.size()), vcg::Point3d(extent.x(), extent.y(), extent.z()),
-                 cells);
+    vcg::BestDim(static_cast<long long>(surface.triangles.size()), to_vcg(extent), cells);
     std::vector<int> held(static_cast<std::size_t>(cells[0]) * cells[1] * cells[2], 0);
     for (const Triangle& t : surface.triangles) {
         const Point centre = (surface.points[t[0]] + surface.points[t[1]] + surface.points[t[2]]) / 3;
@@ -63,15 +63,6 @@ void check_spread(const Surface& surface)
 }
 
 } // namespace
-
-double mean_edge_length(const Surface& surface)
-{
-    double sum = 0;
-    for (const Triangle& t : surface.triangles)
-        for (int k = 0; k < 3; ++k)
-            sum += (surface.points[t[k]] - surface.points[t[(k + 1) % 3]]).norm();
-    return surface.triangles.empty() ? 0 : sum / (3 * static_cast<double>(surface.triangles.size()));
-}
 
 Surface remesh(const Surface& surface, double length, int iterations, const Progress& progress)
 {

@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "resample.h"
 
 #include "../base/weld.h"
+#include "../geometry/size.h"
 #include "remesh.h"
 #include "simplify.h"
 
@@ -13,14 +15,6 @@ namespace vcg_ext {
 namespace {
 
 constexpr int remesh_iterations = 5;
-
-double area(const Surface& surface)
-{
-    double twice = 0;
-    for (const Triangle& t : surface.triangles)
-        twice += scaled_normal(surface.points, t).norm();
-    return twice / 2;
-}
 
 /// The edge of equilateral triangles, six at a vertex, of which `area` takes `vertices`.
 double edge_for(double area, int vertices)
@@ -51,13 +45,11 @@ Surface resample(const Surface& surface, int vertices, const Progress& progress)
     if (vertices < 4)
         throw Error("That would leave " + std::to_string(vertices) +
                     " vertices, and a surface of fewer than 4 holds nothing. Keep a larger part.");
-    double length = edge_for(area(surface), vertices);
+    double length = edge_for(surface_area(surface), vertices);
     constexpr int tries = 8;
     for (int i = 0; i < tries; ++i) {
-        const Progress within = [&progress, i](int percent, const char*) {
-            return !progress || progress((100 * i + percent) / tries, "Resampling");
-        };
-        Surface even = remesh(surface, length, remesh_iterations, within);
+        Surface even = remesh(surface, length, remesh_iterations,
+                              within(progress, 100 * i / tries, 100 * (i + 1) / tries, "Resampling"));
         if (even.points.empty())
             break;
         const double ratio = static_cast<double>(even.points.size()) / vertices;

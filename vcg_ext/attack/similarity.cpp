@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "similarity.h"
 
 #include "../key/random.h"
@@ -9,9 +10,7 @@ namespace vcg_ext {
 
 Points similarity(const Points& points, std::uint64_t seed)
 {
-    Eigen::AlignedBox3d box;
-    for (const Point& p : points)
-        box.extend(p);
+    const Eigen::AlignedBox3d box = bounding_box(points);
     Stream stream = seeded_stream(seed, "similarity");
     const Eigen::Matrix3d rotation = Eigen::Quaterniond(direction<4>(stream)).toRotationMatrix();
     const double scale = 0.5 + 1.5 * uniform(stream);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "simplify.h"
 
 #include "../base/mesh.h"
@@ -9,8 +10,8 @@ namespace vcg_ext {
 
 namespace {
 
-/// Where the collapse keeps each vertex' quadric. vcglib asks for it as a static; per thread, two attacks can go on at
-/// once.
+/// Where the collapse keeps each vertex' quadric. vcglib asks for it as a static; it is one per thread, so that two
+/// attacks can go on at once.
 struct Quadrics {
     using Quadric = vcg::math::Quadric<double>;
     static vcg::SimpleTempData<Mesh::VertContainer, Quadric>*& data()
@@ -18,6 +19,14 @@ struct Quadrics {
         static thread_local vcg::SimpleTempData<Mesh::VertContainer, Quadric>* quadrics = nullptr;
         return quadrics;
     }
+    /// Sets the place until it ends, whichever way.
+    class Here {
+    public:
+        explicit Here(vcg::SimpleTempData<Mesh::VertContainer, Quadric>& quadrics) { data() = &quadrics; }
+        ~Here() { data() = nullptr; }
+        Here(const Here&) = delete;
+        Here& operator=(const Here&) = delete;
+    };
     static void Init() {}
     static Quadric& Qd(Vertex& v) { return (*data())[v]; }
     static Quadric& Qd(Vertex* v) { return (*data())[*v]; }
@@ -44,7 +53,7 @@ Surface simplify(const Surface& surface, int faces, const Progress& progress)
     mesh.face.EnableVFAdjacency();
     to_mesh(surface, mesh);
     vcg::SimpleTempData<Mesh::VertContainer, Quadrics::Quadric> quadrics(mesh.vert);
-    Quadrics::data() = &quadrics;
+    const Quadrics::Here here(quadrics);
 
     vcg::tri::TriEdgeCollapseQuadricParameter parameters;
     parameters.SVDPlacement = true; // the other way to the optimum leaves the place unset where a quadric is singular

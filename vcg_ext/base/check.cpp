@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "check.h"
 
 #include "error.h"
@@ -24,8 +25,8 @@ void check_surface(const Surface& surface, const char* which)
         throw Error(std::to_string(not_finite) + " of the " + std::to_string(surface.points.size()) +
                     " vertices have coordinates that are no finite numbers. Remove these vertices first.");
     if (surface.triangles.empty())
-        throw Error(mesh +
-                    " has no faces, so there is no surface. Open a mesh with faces, or reconstruct the surface.");
+        throw Error(mesh + " has no faces, so there is no surface. "
+                           "Open a mesh with faces, or reconstruct the surface.");
     const auto vertices = static_cast<int>(surface.points.size());
     for (const Triangle& t : surface.triangles)
         if (std::any_of(t.begin(), t.end(), [vertices](int v) { return v < 0 || v >= vertices; }))
@@ -36,16 +37,19 @@ void check_surface(const Surface& surface, const char* which)
     const double size = box.sizes().maxCoeff();
     if (size > 0 && size < smallest)
         throw Error(mesh + " is smaller than 1e-35. Scale it up first.");
+    const auto has_corners = [&points = surface.points](const Triangle& t) {
+        return points[t[0]] != points[t[1]] && points[t[1]] != points[t[2]] && points[t[2]] != points[t[0]];
+    };
+    if (std::none_of(surface.triangles.begin(), surface.triangles.end(), has_corners))
+        throw Error("No face of the " + std::string(which) +
+                    " has three distinct corners. "
+                    "Check its coordinates, or reconstruct the surface.");
 }
 
 Welded checked_weld(const Surface& surface, const char* which)
 {
     check_surface(surface, which);
-    Welded welded = weld(surface);
-    if (welded.surface.triangles.empty())
-        throw Error("No face of the " + std::string(which) +
-                    " has three distinct corners. Check its coordinates, or reconstruct the surface.");
-    return welded;
+    return weld(surface);
 }
 
 } // namespace vcg_ext

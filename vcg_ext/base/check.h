@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "weld.h"
 
@@ -5,10 +6,12 @@ namespace vcg_ext {
 
 /// \param which what the text calls the mesh
 /// \throw Error where a coordinate is not finite, the mesh has no faces, a face refers to a vertex that is not there,
-/// or its size is beyond what areas and moments in double bear (1e-35 to 1e35)
+///              the size is beyond what areas and moments in double bear (1e-35 to 1e35), or no face has three corners
+///              at distinct positions
 void check_surface(const Surface& surface, const char* which = "mesh");
 
-/// weld(), checked before and after. \throw Error as check_surface(), and where no face has three distinct corners
+/// weld() of a checked surface; so there are faces afterwards.
+/// \throw Error as check_surface()
 [[nodiscard]] Welded checked_weld(const Surface& surface, const char* which = "mesh");
 
 } // namespace vcg_ext

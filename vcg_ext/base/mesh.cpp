@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh.h"
 
 namespace vcg_ext {
@@ -6,7 +7,7 @@ void to_mesh(const Surface& surface, Mesh& mesh)
 {
     auto vertex = vcg::tri::Allocator<Mesh>::AddVertices(mesh, surface.points.size());
     for (const Point& p : surface.points)
-        (vertex++)->P() = vcg::Point3d(p.x(), p.y(), p.z());
+        (vertex++)->P() = to_vcg(p);
     auto face = vcg::tri::Allocator<Mesh>::AddFaces(mesh, surface.triangles.size());
     for (const Triangle& t : surface.triangles) {
         for (int k = 0; k < 3; ++k)
@@ -26,8 +27,7 @@ Surface to_surface(const Mesh& mesh)
     for (std::size_t v = 0; v < mesh.vert.size(); ++v)
         if (!mesh.vert[v].IsD()) {
             index[v] = static_cast<int>(surface.points.size());
-            const vcg::Point3d& p = mesh.vert[v].cP();
-            surface.points.emplace_back(p[0], p[1], p[2]);
+            surface.points.push_back(from_vcg(mesh.vert[v].cP()));
         }
     for (const Face& face : mesh.face)
         if (!face.IsD())

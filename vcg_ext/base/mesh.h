@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "surface.h"
+#include "vcg_point.h"
 
 #include <vcg/complex/complex.h>
 
@@ -16,8 +18,7 @@ template <class Base>
 class FaceQualitydOcf : public vcg::face::QualityOcf<double, Base> {
 };
 
-/// What an algorithm of vcglib wants beyond positions is switched on where it is used (`Enable...`), as MeshLab does
-/// it.
+/// What an algorithm of vcglib wants beyond positions is switched on where it is used (`Enable...`), as in MeshLab.
 class Vertex : public vcg::Vertex<MeshTypes, vcg::vertex::InfoOcf, vcg::vertex::Coord3d, vcg::vertex::Normal3d,
                                   vcg::vertex::BitFlags, vcg::vertex::Qualityd, vcg::vertex::VFAdjOcf,
                                   vcg::vertex::MarkOcf, vcg::vertex::CurvatureDirdOcf> {};
@@ -30,8 +31,7 @@ class Edge : public vcg::Edge<MeshTypes, vcg::edge::VertexRef, vcg::edge::BitFla
 class Mesh : public vcg::tri::TriMesh<vcg::vertex::vector_ocf<Vertex>, vcg::face::vector_ocf<Face>, std::vector<Edge>> {
 };
 
-/// Fills the empty `mesh` with the surface, vertex by vertex and face by face in the same order; normals and box
-/// computed.
+/// Fills the empty `mesh` with the surface, vertex by vertex and face by face in the same order; with normals and box.
 void to_mesh(const Surface& surface, Mesh& mesh);
 
 /// The vertices and faces of `mesh` that are not deleted, in order.

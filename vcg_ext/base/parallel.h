@@ -1,4 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "progress.h"
+
 #include <algorithm>
 #include <functional>
 #include <vector>
@@ -6,14 +9,30 @@
 namespace vcg_ext {
 
 /// Sets how many threads for_chunks() uses; 0 (the default) is one per core. For tests: no result depends on it.
+/// Threads that are there already stay for later calls.
 void set_threads(int count);
+
+/// How many pieces of `chunk` elements [0, count) has; the last may be shorter.
+/// \pre chunk > 0
+[[nodiscard]] inline int chunk_count(int count, int chunk)
+{
+    return count / chunk + (count % chunk > 0);
+}
 
 /// Calls `work(begin, end)` on the fixed pieces of [0, count) of `chunk` elements each (the last may be shorter).
 ///
 /// The pieces depend on `count` and `chunk` alone. So a result does not depend on the number of threads where each
 /// element is written by itself, or where each piece makes one partial result (number begin / chunk) and these are
-/// summed in order. The first exception of the lowest piece is thrown again.
+/// summed in order. `work` may call for_chunks() itself.
+///
+/// \throw what `work` threw, of several pieces the lowest's; the others are done nevertheless
 void for_chunks(int count, int chunk, const std::function<void(int begin, int end)>& work);
+
+/// The same in some 20 steps, more where pieces are many. The calling thread tells `progress`, from 0 percent on, before each of them.
+///
+/// \throw Cancelled where `progress` returned false: the pieces of later steps are not done
+void for_chunks(int count, int chunk, const Progress& progress, const char* phase,
+                const std::function<void(int begin, int end)>& work);
 
 /// for_chunks() element by element.
 template <class Work>
@@ -32,7 +51,7 @@ template <class Value, class Take, class Join>
 Value ordered_fold(int count, const Value& zero, const Take& take, const Join& join)
 {
     constexpr int chunk = 4096;
-    std::vector<Value> partial((count + chunk - 1) / chunk, zero);
+    std::vector<Value> partial(chunk_count(count, chunk), zero);
     for_chunks(count, chunk, [&](int begin, int end) {
         Value value = zero;
         for (int i = begin; i < end; ++i)

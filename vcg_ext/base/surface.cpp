@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface.h"
 
 #include "parallel.h"
@@ -22,15 +23,12 @@ VertexFaces vertex_faces(int vertices, const std::vector<Triangle>& triangles)
     return around;
 }
 
-Points face_normals(const Points& points, const std::vector<Triangle>& triangles)
+Eigen::AlignedBox3d bounding_box(const Points& points)
 {
-    Points normals(triangles.size());
-    for_each_index(static_cast<int>(triangles.size()), [&](int f) {
-        const Point n = scaled_normal(points, triangles[f]);
-        const double length = n.norm();
-        normals[f] = length > 0 ? Point(n / length) : Point(Point::Zero());
-    });
-    return normals;
+    Eigen::AlignedBox3d box;
+    for (const Point& p : points)
+        box.extend(p);
+    return box;
 }
 
 Points rounded_to_float(const Points& points)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -12,9 +13,9 @@ using Triangle = std::array<int, 3>;
 
 /// A triangle surface as plain arrays: what a host hands in and gets back.
 ///
-/// Plain on purpose. The two MeshLab generations carry two versions of vcglib, and one program must not see two
-/// definitions of one VCG type. So the hosts' meshes end here, and `vcg_ext` uses one vcglib, the same in both
-/// (mesh.h).
+/// Plain on purpose. The two MeshLab generations carry two versions of vcglib, and one program must not see
+/// two definitions of one VCG type. So the hosts' meshes end here, and `vcg_ext` uses one vcglib, the same
+/// in both (mesh.h).
 struct Surface {
     Points points;                   ///< positions
     std::vector<Triangle> triangles; ///< indices into `points`
@@ -38,8 +39,15 @@ struct VertexFaces {
     return (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]);
 }
 
-/// Unit normals of all faces; zero where a face has no area.
-[[nodiscard]] Points face_normals(const Points& points, const std::vector<Triangle>& triangles);
+/// The same, were vertex `v` at `position`.
+[[nodiscard]] inline Point scaled_normal_with(const Points& points, const Triangle& t, int v, const Point& position)
+{
+    const auto at = [&](int k) -> const Point& { return t[k] == v ? position : points[t[k]]; };
+    return (at(1) - at(0)).cross(at(2) - at(0));
+}
+
+/// The box around points; empty where there are none.
+[[nodiscard]] Eigen::AlignedBox3d bounding_box(const Points& points);
 
 /// Positions as a file of floats holds them.
 [[nodiscard]] Points rounded_to_float(const Points& points);

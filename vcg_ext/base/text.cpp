@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "text.h"
 
-#include <iomanip>
+#include <cmath>
+#include <limits>
 #include <locale>
 #include <sstream>
 
@@ -8,10 +10,18 @@ namespace vcg_ext {
 
 std::string text(double number)
 {
-    std::ostringstream stream;
+    std::stringstream stream;
     stream.imbue(std::locale::classic());
-    stream << std::setprecision(6) << number;
-    return stream.str();
+    for (int digits = 6;; ++digits) {
+        stream.str({});
+        stream.clear();
+        stream.precision(digits);
+        stream << number;
+        double back = 0;
+        if (digits == std::numeric_limits<double>::max_digits10 || !std::isfinite(number) ||
+            (stream >> back && back == number))
+            return stream.str();
+    }
 }
 
 } // namespace vcg_ext

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "statistic.h"
 
@@ -19,8 +20,8 @@ struct Carriers {
 };
 
 /// Cuts the range between `minimum` and `maximum` of a scalar: `trim` of it off at both ends, `count` equal widths
-/// between
-/// ((5.2)-(5.6), (4.6) with its offset put right). \param scalar one per vertex; negative or infinite: no carrier
+/// between ((5.2)-(5.6), (4.6) with its offset put right).
+/// \param scalar one per vertex; negative or infinite: no carrier
 [[nodiscard]] Carriers cut_range(const std::vector<double>& scalar, double minimum, double maximum, double trim,
                                  int count);
 

@@ -1,7 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "patches.h"
 
+#include "../base/error.h"
 #include "../base/parallel.h"
-#include "../geometry/taubin.h"
+#include "../geometry/laplacian.h"
+#include "../geometry/umbrella.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +49,11 @@ class AreaProfile {
 public:
     AreaProfile(double low, double high) : low_(low), width_((high - low) / steps), area_(steps, 0.0) {}
 
-    void add(double x, double area) { area_[std::clamp(static_cast<int>((x - low_) / width_), 0, steps - 1)] += area; }
+    void add(double x, double area)
+    {
+        const int step = width_ > 0 ? static_cast<int>((x - low_) / width_) : 0;
+        area_[std::clamp(step, 0, steps - 1)] += area;
+    }
 
     AreaProfile& operator+=(const AreaProfile& other)
     {
@@ -55,7 +62,8 @@ public:
         return *this;
     }
 
-    /// The coordinates below which these shares of the area lie. \param shares ascending, in [0, 1]
+    /// The coordinates below which these shares of the area lie.
+    /// \param shares ascending, in [0, 1]
     [[nodiscard]] std::vector<double> cuts(const std::vector<double>& shares) const
     {
         const double total = std::accumulate(area_.begin(), area_.end(), 0.0);
@@ -84,7 +92,7 @@ void visit_parts(const Points& points, const Triangle& t, const Visit& visit)
 {
     constexpr int n = 4; // parts an edge
     const double area = scaled_normal(points, t).norm() / 2 / (n * n);
-    const Point origin = points[t[0]];
+    const Point& origin = points[t[0]];
     const Point a = (points[t[1]] - origin) / n;
     const Point b = (points[t[2]] - origin) / n;
     for (int i = 0; i < n; ++i)
@@ -124,6 +132,12 @@ std::vector<double> equal_shares(int pieces)
     return shares;
 }
 
+void check_frame(const Frame& frame)
+{
+    if (frame.measure == 0)
+        throw Error("No face of the mesh has an area. Check its coordinates, or reconstruct the surface.");
+}
+
 /// The piece of `cuts` that holds `x`; what lies outside counts to the first or the last.
 int piece_of(const std::vector<double>& cuts, double x)
 {
@@ -135,16 +149,12 @@ int piece_of(const std::vector<double>& cuts, double x)
 Patches equal_area_patches(const Surface& surface, const EdgeGraph& graph, const Frame& frame, int layers, int columns,
                            double trim)
 {
+    check_frame(frame);
     constexpr int passes = 10;
     const Points smooth = in_frame(taubin(graph, surface.points, passes), frame);
-    Point low = smooth[surface.triangles[0][0]];
-    Point high = low;
-    for (const Point& p : smooth) {
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
-    }
-    const AreaProfile along_first(low.x(), high.x());
-    const AreaProfile along_second(low.y(), high.y());
+    const Eigen::AlignedBox3d box = bounding_box(smooth);
+    const AreaProfile along_first(box.min().x(), box.max().x());
+    const AreaProfile along_second(box.min().y(), box.max().y());
     const auto profiles = [&](const std::vector<AreaProfile>& empty, const auto& add) {
         return area_profiles(smooth, surface.triangles, empty, add);
     };
@@ -232,10 +242,13 @@ int grow_patches(const Points& local, const Surface& surface, const VertexFaces&
 
 Patches thesis_patches(const Surface& surface, const Frame& frame, int layers, int count, double trim)
 {
+    check_frame(frame);
     const Points local = in_frame(surface.points, frame);
     const int vertices = static_cast<int>(local.size());
-    const auto by_axis = [&](int axis) {
-        return [&local, axis](int a, int b) { return local[a][axis] < local[b][axis]; };
+    const auto by_axis = [&](int axis) { // equal ones by number, so that no sort decides
+        return [&local, axis](int a, int b) {
+            return local[a][axis] != local[b][axis] ? local[a][axis] < local[b][axis] : a < b;
+        };
     };
     std::vector<int> inside(vertices);
     std::iota(inside.begin(), inside.end(), 0);
@@ -255,6 +268,9 @@ Patches thesis_patches(const Surface& surface, const Frame& frame, int layers, i
     const double height = (local[*highest].y() - bottom) / layers;
     from.y() = bottom;
     to.y() = bottom + layers * height;
+    const auto layer_at = [&](double y) {
+        return height > 0 ? std::min(layers - 1, static_cast<int>((y - bottom) / height)) : 0;
+    };
     const double total = ordered_sum(static_cast<int>(surface.triangles.size()), 0.0,
                                      [&](int f) { return area_within(local, surface.triangles[f], from, to); });
 
@@ -267,7 +283,7 @@ Patches thesis_patches(const Surface& surface, const Frame& frame, int layers, i
         to.y() = from.y() + height;
         std::vector<int> sorted;
         for (const int v : inside)
-            if (std::min(layers - 1, static_cast<int>((local[v].y() - bottom) / height)) == layer)
+            if (layer_at(local[v].y()) == layer)
                 sorted.push_back(v);
         patches.columns = grow_patches(local, surface, around, sorted, from, to, total / count, processed,
                                        patches.columns, patches.label);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../geometry/laplacian.h"
 #include "../geometry/moments.h"
@@ -32,12 +33,14 @@ struct Patches {
 /// fine regions, nor a single vertex at the end of an axis moves them. First `trim` of the area is left out at both
 /// ends of axis 1; then come layers of equal area along axis 2, then in each layer columns of equal area along axis 1.
 /// \param trim in [0, 0.5)
+/// \throw Error where the surface has no area, and so no frame
 [[nodiscard]] Patches equal_area_patches(const Surface& surface, const EdgeGraph& graph, const Frame& frame, int layers,
                                          int columns, double trim);
 
 /// Cuts as the thesis prints it: trim (3.6) and layers (3.9) by range, then Algorithm 1, vertex by vertex along axis 1.
-/// Its one slip is put right: the leftover at a layer's end takes no number from the next layer. \return `layers` is 1
-/// and `columns` the number of full patches, which may differ from `count` by a few
+/// Its one slip is put right: the leftover at a layer's end takes no number from the next layer.
+/// \return `layers` is 1 and `columns` the number of full patches, which may differ from `count` by a few
+/// \throw Error where the surface has no area, and so no frame
 [[nodiscard]] Patches thesis_patches(const Surface& surface, const Frame& frame, int layers, int count, double trim);
 
 /// Per patch its vertices, ascending.

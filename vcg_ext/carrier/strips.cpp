@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "strips.h"
 
 #include "../base/error.h"
 #include "../geometry/moments.h"
 #include "../geometry/normal_smoothing.h"
+#include "../key/random.h"
 #include "../key/stream.h"
 #include "statistic.h"
 
@@ -12,22 +14,6 @@
 namespace vcg_ext {
 
 namespace {
-
-/// Uniform over the sphere's directions: an integer point of a cube, drawn again outside its inscribed ball.
-Point draw_direction(Stream& draws)
-{
-    constexpr std::int64_t radius = 1 << 20;
-    while (true) {
-        std::int64_t p[3];
-        std::int64_t square = 0;
-        for (std::int64_t& x : p) {
-            x = static_cast<std::int64_t>(draws.below(2 * radius + 1)) - radius;
-            square += x * x;
-        }
-        if (square > 0 && square <= radius * radius)
-            return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
-    }
-}
 
 /// How far the statistics lie from the threshold, in all: sum of n s^2.
 double evidence(const Carriers& carriers, Statistic statistic)
@@ -47,7 +33,7 @@ Points source_directions(Stream draws)
     constexpr int tries = 1000;
     Points directions;
     for (int i = 0; i < tries; ++i)
-        directions.push_back(draw_direction(draws));
+        directions.push_back(integer_direction(draws));
     return directions;
 }
 

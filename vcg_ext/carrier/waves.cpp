@@ -2,11 +2,11 @@
 #include "waves.h"
 
 #include "../base/error.h"
-#include "../base/parallel.h"
 #include "../geometry/turns.h"
 #include "../geometry/wave_sums.h"
-#include "../key/random.h"
 #include "../payload/sum_tails.h"
+#include "../base/parallel.h"
+#include "../key/random.h"
 #include "wave_flows.h"
 
 #include <algorithm>
@@ -86,38 +86,48 @@ std::vector<std::complex<double>> derivative(const WaveBody& body, const Points&
 
 constexpr double smoothing_lambda = 0.5;
 constexpr int series_terms = 6;
+/// On finer meshes rounds of smoothing move nothing that `bend` and `relax` would not describe.
+constexpr int most_sites_undone = 400000;
 constexpr double most_undone = 8; ///< lambda k: 16 rounds of one half
-constexpr int nodes = 8;          ///< between which phases are interpolated over lambda k
 
-/// Chebyshev's nodes on [0, most_undone].
-double node(int i)
+/// lambda k at which smoothing is undone. Phases between are interpolated, within each run of four gaps by itself:
+/// where the mesh is rough, the series runs away soon, and must not spoil what lies before.
+constexpr std::array<double, 13> nodes = {0, 0.375, 0.75, 1.125, 1.5, 2.125, 2.75, 3.375, 4, 5, 6, 7, 8};
+constexpr int gaps = 4;
+
+/// Area that a surface may reach, over what it is: undoing more smoothing than there was crumples it, at some length.
+constexpr double most_area = 1.5;
+
+double area_of(const WaveBody& body, const Points& points)
 {
-    return most_undone / 2 * (1 - cosine(pi * (2 * i + 1) / (2.0 * nodes)));
+    return ordered_sum(body.topology.surface_triangles, 0.0,
+                       [&](int f) { return scaled_normal(points, body.topology.triangles[f]).norm() / 2; });
 }
 
-/// Lagrange's weights of the nodes at `s`: phases are nearly a polynomial of lambda k.
-std::array<double, nodes> interpolation(double s)
+/// Lagrange's weights at `s` of the nodes `first` to `first` + gaps.
+std::array<double, gaps + 1> interpolation(double s, int first)
 {
-    std::array<double, nodes> weights{};
-    for (int i = 0; i < nodes; ++i) {
+    std::array<double, gaps + 1> weights{};
+    for (int i = 0; i <= gaps; ++i) {
         weights[i] = 1;
-        for (int j = 0; j < nodes; ++j)
+        for (int j = 0; j <= gaps; ++j)
             if (j != i)
-                weights[i] *= (s - node(j)) / (node(i) - node(j));
+                weights[i] *= (s - nodes[first + j]) / (nodes[first + i] - nodes[first + j]);
     }
     return weights;
 }
 
 /// Transforms of the body with smoothing undone, at the nodes; none where that tears it.
-std::vector<std::vector<std::complex<double>>> transforms_before_smoothing(const WaveBody& body, const WavePlan& plan,
-                                                                           int orientations)
+std::vector<std::vector<std::complex<double>>>
+transforms_before_smoothing(const WaveBody& body, const WavePlan& plan, int orientations,
+                            const std::vector<std::complex<double>>& rest)
 {
     const std::vector<Points> powers = umbrella_powers(body, series_terms);
-    std::vector<std::vector<std::complex<double>>> result;
-    for (int i = 0; i < nodes; ++i) {
-        const Points points = canonical_again(body, before_smoothing(body, powers, smoothing_lambda, node(i)));
-        if (points.empty())
-            return {};
+    std::vector<std::vector<std::complex<double>>> result{rest};
+    for (std::size_t i = 1; i < nodes.size(); ++i) {
+        const Points points = canonical_again(body, before_smoothing(body, powers, smoothing_lambda, nodes[i]));
+        if (points.empty() || area_of(body, points) > most_area * body.area)
+            return result;
         result.push_back(transform_of(body, points, plan, orientations));
     }
     return result;
@@ -153,7 +163,8 @@ public:
         const std::vector<double> y = wave_phases(reading, start);
         for (std::size_t k = 0; k < y.size(); ++k) {
             sine_cosine(2 * pi * y[k], s_[k], c_[k]);
-            sine_cosine(2 * pi * step * along[k], turn_s_[k], turn_c_[k]);
+            if (!along.empty())
+                sine_cosine(2 * pi * step * along[k], turn_s_[k], turn_c_[k]);
         }
     }
 
@@ -199,7 +210,7 @@ std::vector<Part> for_all_ways(const WaveReading& reading, const std::vector<dou
         for (int i = begin; i < end; ++i) {
             const WaveView& view = reading.views[i / rows];
             const WaveGrid::Row& row = grid.rows[i % rows];
-            if (row.undone >= 0 && view.undone.empty())
+            if (row.undone >= static_cast<int>(view.undone.size()) || (view.bend.empty() && row.t != 0))
                 continue;
             WaveWay way{i / rows, row.undone, row.t, 0, 0};
             double& along = row.undone < 0 ? way.u : way.t;
@@ -208,12 +219,14 @@ std::vector<Part> for_all_ways(const WaveReading& reading, const std::vector<dou
             std::vector<double> padded(signs);
             padded.resize(scan.padded(), 0);
             const double n = static_cast<double>(view.phase.size());
+            const double widest = view.bend.empty() ? 1e-9 : 1e9; // of shifts: none, where only the rest is asked for
             for (std::size_t j = 0; j < row.log_weight.size(); ++j) {
                 double squares, matched;
                 scan.take(padded.data(), squares, matched);
                 along = row.first + static_cast<double>(j) * grid.step;
                 way.log_weight = view.log_weight + row.log_weight[j];
-                visit(parts[i], way, 2 * squares - n, matched);
+                if (std::abs(along) < widest)
+                    visit(parts[i], way, 2 * squares - n, matched);
             }
         }
     });
@@ -302,8 +315,7 @@ WaveBody wave_body(const Surface& surface)
     for_each_index(static_cast<int>(body.points.size()), [&](int v) {
         body.points[v] = body.frame.axes.transpose() * (body.points[v] - body.frame.centre) / body.radius;
     });
-    body.area = ordered_sum(body.topology.surface_triangles, 0.0,
-                            [&](int f) { return scaled_normal(body.points, body.topology.triangles[f]).norm() / 2; });
+    body.area = area_of(body, body.points);
     return body;
 }
 
@@ -339,13 +351,16 @@ WaveReading read_waves(const WaveBody& body, const WavePlan& plan, const WaveRea
 {
     const int orientations = options.orientations;
     const std::size_t count = plan.vectors.size();
-    const Points normals = site_normals(body);
     const std::vector<std::complex<double>> rest = transform_of(body, body.points, plan, orientations);
     std::vector<std::vector<std::complex<double>>> flows;
-    for (const std::vector<double>& flow : processing_flows(body, normals))
-        flows.push_back(derivative(body, normals, flow, rest, plan, orientations));
-
-    const auto before = transforms_before_smoothing(body, plan, orientations);
+    std::vector<std::vector<std::complex<double>>> before;
+    if (!options.at_rest_only) {
+        const Points normals = site_normals(body);
+        for (const std::vector<double>& flow : processing_flows(body, normals))
+            flows.push_back(derivative(body, normals, flow, rest, plan, orientations));
+        if (body.topology.sites <= most_sites_undone)
+            before = transforms_before_smoothing(body, plan, orientations, rest);
+    }
 
     int own_rung = 0;
     (void)wave_step(body, options.strength, plan.count(), &own_rung);
@@ -376,6 +391,10 @@ WaveReading read_waves(const WaveBody& body, const WavePlan& plan, const WaveRea
             view.phase = part(rest);
             for (std::size_t k = 0; k < count; ++k)
                 view.phase[k] -= plan.dithers[k];
+            if (options.at_rest_only) {
+                reading.views.push_back(std::move(view));
+                continue;
+            }
             view.bend = part(flows[0]);
             view.relax = part(flows[1]);
             to_half_a_period(view.bend);
@@ -389,20 +408,23 @@ WaveReading read_waves(const WaveBody& body, const WavePlan& plan, const WaveRea
                 for (std::size_t k = 0; k < count; ++k)
                     view.relax[k] -= dot / square * view.bend[k];
             to_half_a_period(view.relax);
-            if (!before.empty()) {
-                std::vector<std::vector<double>> at;
-                for (const auto& transform : before)
-                    at.push_back(part(transform));
-                for (const double s : reading.grid->undone) {
-                    const std::array<double, nodes> weights = interpolation(s);
-                    std::vector<double> phase(count);
-                    for (std::size_t k = 0; k < count; ++k) {
-                        phase[k] = -plan.dithers[k];
-                        for (int i = 0; i < nodes; ++i)
-                            phase[k] += weights[i] * at[i][k];
-                    }
-                    view.undone.push_back(std::move(phase));
+            std::vector<std::vector<double>> at;
+            for (const auto& transform : before)
+                at.push_back(part(transform));
+            for (const double s : reading.grid->undone) {
+                int first = 0;
+                while (first + gaps + 1 < static_cast<int>(nodes.size()) && nodes[first + gaps] < s)
+                    first += gaps;
+                if (first + gaps >= static_cast<int>(at.size()))
+                    break;
+                const auto weights = interpolation(s, first);
+                std::vector<double> phase(count);
+                for (std::size_t k = 0; k < count; ++k) {
+                    phase[k] = -plan.dithers[k];
+                    for (int i = 0; i <= gaps; ++i)
+                        phase[k] += weights[i] * at[first + i][k];
                 }
+                view.undone.push_back(std::move(phase));
             }
             reading.views.push_back(std::move(view));
         }
@@ -413,7 +435,7 @@ std::vector<double> wave_phases(const WaveReading& reading, const WaveWay& way)
 {
     const WaveView& view = reading.views[way.view];
     std::vector<double> y = way.undone < 0 ? view.phase : view.undone[way.undone];
-    for (std::size_t k = 0; k < y.size(); ++k)
+    for (std::size_t k = 0; k < view.bend.size(); ++k)
         y[k] += way.t * view.bend[k] + way.u * view.relax[k];
     return y;
 }
@@ -426,7 +448,7 @@ WavePresence wave_presence(const WaveReading& reading)
         WaveWay way;
     };
     const int count = static_cast<int>(reading.views.front().phase.size());
-    const CosineTail tail(count);
+    const CosineTail& tail = cosine_tail(count);
     const auto parts = for_all_ways<Part>(reading, std::vector<double>(count, 0),
                                           [&](Part& part, const WaveWay& way, double gathered, double) {
                                               const double bound = tail(gathered) - way.log_weight;
@@ -458,73 +480,52 @@ WavePresence wave_presence(const WaveReading& reading)
 WaveMatch wave_match(const WaveReading& reading, const WavePresence& presence, const Bits& coded)
 {
     struct Part {
-        double by_dither = never;
-        double by_mask = never;
-        WaveWay dither_way;
-        WaveWay mask_way;
+        double rough = never;
+        WaveWay way;
+        double log_weight = 0;
     };
     const int count = static_cast<int>(reading.views.front().phase.size());
     std::vector<double> signs(count);
     for (int k = 0; k < count; ++k)
         signs[k] = coded[k] ? -1 : 1;
-    const CosineTail tail(count);
-    // Weights that look at y, but never at bits.
-    const auto log_weight = [&](const WaveWay& way, double log_tail) {
-        return way.log_weight + std::log(0.5) + log_add(0, -log_tail - presence.log_evidence);
-    };
+    const CosineTail& tail = cosine_tail(count);
     auto parts = for_all_ways<Part>(reading, signs, [&](Part& part, const WaveWay& way, double gathered, double sum) {
         if (sum <= 0)
             return;
-        const double by_dither = tail(sum) - way.log_weight;
-        if (by_dither < part.by_dither) {
-            part.by_dither = by_dither;
-            part.dither_way = way;
-        }
-        // Hoeffding's bound, for choosing: sum of l^2 is (n + S2) / 2.
-        const double rough = -sum * sum / (count + gathered) - way.log_weight;
-        if (rough - 1 < part.by_mask + 60) {
-            const double by_mask = -sum * sum / (count + gathered) - log_weight(way, tail(gathered));
-            if (by_mask < part.by_mask) {
-                part.by_mask = by_mask;
-                part.mask_way = way;
-            }
+        // Hoeffding's bound, for choosing: the sum of l^2 is (n + S2) / 2. Weights add up to 1 only by the very tail
+        // that the evidence was summed with.
+        const double rough = -sum * sum / (count + gathered);
+        const double seen = -tail(gathered) - presence.log_evidence;
+        if (rough - std::max(way.log_weight, way.log_weight + seen) - 0.7 > part.rough)
+            return;
+        const double log_weight = way.log_weight + std::log(0.5) + log_add(0, seen);
+        if (rough - log_weight < part.rough) {
+            part.rough = rough - log_weight;
+            part.way = way;
+            part.log_weight = log_weight;
         }
     });
 
+    constexpr std::size_t most = 64;
+    const std::size_t some = std::min(most, parts.size());
+    std::partial_sort(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(some), parts.end(),
+                      [](const Part& a, const Part& b) { return a.rough < b.rough; });
     WaveMatch result;
-    double best = never;
-    const auto consider = [&](double log_p, const WaveWay& way, double sum) {
-        if (log_p < best) {
-            best = log_p;
-            result.way = way;
-            result.sum = sum;
-        }
-    };
-    const auto exact = [&](const WaveWay& way, bool by_mask) {
-        std::vector<double> l = wave_phases(reading, way);
+    for (std::size_t i = 0; i < some && parts[i].rough < never; ++i) {
+        std::vector<double> l = wave_phases(reading, parts[i].way);
         double sum = 0;
-        double gathered = 0;
         for (int k = 0; k < count; ++k) {
             l[k] = cosine(2 * pi * l[k]);
             sum += signs[k] * l[k];
-            gathered += 2 * l[k] * l[k] - 1;
         }
-        if (by_mask)
-            consider(log_tail_of_signs(l, sum) - log_weight(way, log_tail_of_cosines(count, gathered)), way, sum);
-        else
-            consider(log_tail_of_cosines(count, sum) - way.log_weight, way, sum);
-    };
-    constexpr std::size_t most = 32;
-    const auto top = [&](auto bound, auto way, bool by_mask) {
-        const std::size_t some = std::min(most, parts.size());
-        std::partial_sort(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(some), parts.end(),
-                          [&](const Part& a, const Part& b) { return a.*bound < b.*bound; });
-        for (std::size_t i = 0; i < some && parts[i].*bound < never; ++i)
-            exact(parts[i].*way, by_mask);
-    };
-    top(&Part::by_dither, &Part::dither_way, false);
-    top(&Part::by_mask, &Part::mask_way, true);
-    result.log_p = std::min(0.0, best + std::log(2.0));
+        const double log_p = log_tail_of_signs(l, sum) - parts[i].log_weight;
+        if (i == 0 || log_p < result.log_p) {
+            result.log_p = log_p;
+            result.way = parts[i].way;
+            result.sum = sum;
+        }
+    }
+    result.log_p = std::min(0.0, result.log_p);
     return result;
 }
 
@@ -552,7 +553,7 @@ std::vector<WaveSoft> wave_ways(const WaveReading& reading, const WavePresence& 
     };
     using Part = std::vector<Found>;
     const int count = static_cast<int>(reading.views.front().phase.size());
-    const CosineTail tail(count);
+    const CosineTail& tail = cosine_tail(count);
     const auto parts = for_all_ways<Part>(
         reading, std::vector<double>(count, 0), [&](Part& part, const WaveWay& way, double gathered, double) {
             const double log_weight = way.log_weight - tail(gathered) - presence.log_evidence;

@@ -54,7 +54,7 @@ struct WaveView {
     std::vector<double> phase; ///< m_k / D - dither_k: near b / 2 plus an integer where the mark is
     std::vector<double> bend;  ///< d phase / dt: RMS of half a period per unit
     std::vector<double> relax; ///< d phase / du, square to `bend`
-    /// `phase` after smoothing is undone, one for each of wave_grid().undone; empty where that tears the body.
+    /// `phase` after smoothing is undone, one for each of wave_grid().undone, up to where that tears the body.
     std::vector<std::vector<double>> undone;
 };
 
@@ -88,6 +88,9 @@ struct WaveReadOptions {
     int rungs = 1;          ///< how many rungs above and below its own it tries
     int orientations = 4;   ///< 1: only as the third moments say
     bool mirrored = true;   ///< mirror images too
+    /// Only the body as it is, without what processing does to it: the weights are the same, so p is as true, and no
+    /// lower. Three quarters of the time less, so try it first; a fifth of that for large meshes.
+    bool at_rest_only = false;
 };
 
 /// Lays the body into the waves in every way, and computes from the body itself how processing shifts its phases.
@@ -124,11 +127,12 @@ struct WaveMatch {
     double sum = 0; ///< sum of cos 2 pi (y_k - b_k / 2) there
 };
 
-/// The lesser of two bounds, times 2:
-/// - min over ways of tail(S) / weight, S = sum of cos 2 pi (y_k - b_k / 2), by the secrecy of the dithers;
-/// - min over ways of tail(S | y) / w(y): given all y, the signs of l_k = cos 2 pi y_k against the bits are fair coins,
-///   because the mask is secret. So weights may look at y: half is as before looking, half goes by weight / tail of
-///   wave_presence(), which is next to all for the way where phases gather.
+/// min over ways of P(sum of +-l_k >= sum of l_k (-1)^b_k) / w, l_k = cos 2 pi y_k, w a weight of the way.
+///
+/// Given all y, the signs of l_k against the bits are fair coins, because the mask is secret. So this holds for any
+/// mesh that does not carry these bits, be it marked with the same key or not; and weights may look at y: half of them
+/// is as before looking, half goes by weight / tail of wave_presence(), which is next to all for the way where phases
+/// gather. Not below 2^-K: what the phases' gathering itself is worth, wave_presence() says.
 ///
 /// \pre the mask that `coded` was XOR-ed with is uniform and independent of the plan
 [[nodiscard]] WaveMatch wave_match(const WaveReading& reading, const WavePresence& presence, const Bits& coded);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "centre.h"
 
 #include "../base/error.h"
@@ -7,8 +8,7 @@ namespace vcg_ext {
 
 Point area_centre(const Points& points, const std::vector<Triangle>& triangles)
 {
-    using Moments =
-        Eigen::Vector4d; // sum A (a + b + c) / 3 and sum A, about the first corner, so that far is not inexact
+    using Moments = Eigen::Vector4d; // sum A (a + b + c) / 3 and sum A; about a corner, so that far is not inexact
     if (triangles.empty())
         throw Error("The mesh has no faces, so it has no surface to mark. Reconstruct the surface first.");
     const Point near = points[triangles[0][0]];

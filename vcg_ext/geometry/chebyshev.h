@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "laplacian.h"
 
 namespace vcg_ext {
 
-/// A polynomial p of a Laplacian that is near 0 on low and near 1 on high eigenvalues, as a Chebyshev series on [0,
-/// bound].
+/// A polynomial p of a Laplacian that is near 0 on low and near 1 on high eigenvalues, as a Chebyshev series on
+/// [0, bound].
 struct HighPass {
     double bound = 0;                 ///< the eigenvalues are in [0, bound]
     std::vector<double> coefficients; ///< of T_0, T_1, ... at 2 lambda / bound - 1
@@ -16,7 +17,9 @@ struct HighPass {
 /// The step at `cutoff`, damped by Jackson's kernel so that it does not ring (Weisse et al. 2006, Rev. Mod. Phys. 78).
 ///
 /// In the angle arccos(2 lambda / bound - 1) the transition is pi / (terms + 1) wide as a standard deviation, whatever
-/// the eigenvalue. \param cutoff in (0, bound)   \param degree at least 1; it is also the number of sparse products
+/// the eigenvalue.
+/// \param cutoff in (0, bound)
+/// \param degree at least 1; it is also the number of sparse products
 [[nodiscard]] HighPass high_pass(double cutoff, double bound, int degree);
 
 /// The degree at which high_pass() has the same transition for every bound: 120 at a bound of 24, and as its root.

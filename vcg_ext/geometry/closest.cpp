@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "closest.h"
 
 #include "../base/error.h"
@@ -86,11 +87,10 @@ ClosestPoint ClosestSearch::operator()(const Point& p, double reach) const
     vcg::tri::EmptyTMark<Mesh> unmarked;
     vcg::Point3d nearest;
     double distance = 0;
-    const Face* face = tree_->tree->GetClosest(distance_to_face, unmarked, vcg::Point3d(p.x(), p.y(), p.z()), reach,
-                                               distance, nearest);
+    const Face* face = tree_->tree->GetClosest(distance_to_face, unmarked, to_vcg(p), reach, distance, nearest);
     if (!face)
         return {};
-    return {distance, Point(nearest[0], nearest[1], nearest[2]), static_cast<int>(vcg::tri::Index(tree_->mesh, face))};
+    return {distance, from_vcg(nearest), static_cast<int>(vcg::tri::Index(tree_->mesh, face))};
 }
 
 } // namespace vcg_ext

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "moments.h"
 
 #include "../base/parallel.h"
@@ -130,8 +131,7 @@ bool is_closed_and_oriented(const Surface& surface)
 {
     const int vertices = static_cast<int>(surface.points.size());
     const VertexFaces around = vertex_faces(vertices, surface.triangles);
-    std::vector<std::pair<int, int>>
-        uses; // of the edges to vertices with a higher number: that vertex, +1 out or -1 in
+    std::vector<std::pair<int, int>> uses; // of the edges to vertices of a higher number: that one, +1 out or -1 in
     for (int v = 0; v < vertices; ++v) {
         uses.clear();
         for (const int* f = around.begin(v); f != around.end(v); ++f) {
@@ -165,7 +165,7 @@ double signed_volume(const Surface& surface, const Point& centre)
 Frame principal_frame(const Surface& surface)
 {
     if (is_closed_and_oriented(surface)) {
-        const Frame frame = frame_of({surface, true});
+        Frame frame = frame_of({surface, true});
         if (frame.measure != 0)
             return frame;
     }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../base/surface.h"
 
@@ -6,7 +7,9 @@ namespace vcg_ext {
 /// Smooths the shape and keeps the sampling: each vertex moves along its normal (area-weighted) by `weight` of the way
 /// that Laplacian smoothing would take it, and not along the surface.
 ///
-/// \param around of the surface's triangles   \param weight in (0, 1]   \return the positions after `rounds` rounds
+/// \param around of the surface's triangles
+/// \param weight in (0, 1]
+/// \return the positions after `rounds` rounds
 [[nodiscard]] Points smoothed_along_normals(const Surface& surface, const VertexFaces& around, int rounds,
                                             double weight);
 

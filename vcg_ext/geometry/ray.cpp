@@ -1,4 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "ray.h"
+
+#include "../base/vcg_point.h"
 
 #include <vcg/space/intersection3.h>
 
@@ -6,9 +9,8 @@ namespace vcg_ext {
 
 std::optional<SurfacePoint> farthest_hit(const Surface& surface, const Point& origin, const Point& direction)
 {
-    const auto vcg_point = [](const Point& p) { return vcg::Point3d(p.x(), p.y(), p.z()); };
     const Point unit = direction.normalized();
-    const vcg::Ray3d ray(vcg_point(origin), vcg_point(unit));
+    const vcg::Ray3d ray(to_vcg(origin), to_vcg(unit));
     int face = -1;
     double farthest = -1;
     for (std::size_t f = 0; f < surface.triangles.size(); ++f) {
@@ -16,8 +18,8 @@ std::optional<SurfacePoint> farthest_hit(const Surface& surface, const Point& or
         double distance = 0;
         double u = 0;
         double v = 0;
-        if (vcg::IntersectionRayTriangle(ray, vcg_point(surface.points[a]), vcg_point(surface.points[b]),
-                                         vcg_point(surface.points[c]), distance, u, v) &&
+        if (vcg::IntersectionRayTriangle(ray, to_vcg(surface.points[a]), to_vcg(surface.points[b]),
+                                         to_vcg(surface.points[c]), distance, u, v) &&
             distance > farthest) {
             farthest = distance;
             face = static_cast<int>(f);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../base/surface.h"
 
@@ -17,7 +18,8 @@ struct SurfacePoint {
 /// One pass over the faces. vcglib's spatial structures pay off from some ten rays on: for the first one, building its
 /// box tree costs 20 passes, its grid 7 (and the grid's iterator misses a ray now and then).
 ///
-/// \param direction any length but 0   \return nothing where the ray misses
+/// \param direction any length but 0
+/// \return nothing where the ray misses
 [[nodiscard]] std::optional<SurfacePoint> farthest_hit(const Surface& surface, const Point& origin,
                                                        const Point& direction);
 

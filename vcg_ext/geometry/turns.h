@@ -4,7 +4,7 @@
 namespace vcg_ext {
 
 /// Sine and cosine by sums and products alone: no branch, so loops over it vectorise, and no library, so all machines
-/// agree to the bit. Absolute error below 1e-13, plus the rounding of the reduction to a turn: 4e-16 |x|.
+/// agree to the bit. Absolute error below 2e-13, plus the rounding of the reduction to a turn: 4e-16 |x|.
 ///
 /// \param x radians, |x| < 1e9
 inline void sine_cosine(double x, double& sine, double& cosine)

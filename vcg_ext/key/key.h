@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "stream.h"
 
@@ -15,7 +16,8 @@ namespace vcg_ext {
 /// so that the mesh can be read meanwhile; the first stream() waits for it.
 class Key {
 public:
-    /// \param secret the passphrase's bytes  \throw Error where it is empty
+    /// \param secret the passphrase's bytes
+    /// \throw Error where it is empty
     explicit Key(std::string_view secret);
 
     /// Independent draws for one purpose, such as "carrier-order": keyed BLAKE2b of the purpose gives the sub-key.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../base/surface.h"
 #include "stream.h"
@@ -16,6 +17,13 @@ namespace vcg_ext {
 
 /// Uniform in [0, 1), in steps of 2^-53: an integer and one exact product, the same on all platforms.
 [[nodiscard]] double uniform(Stream& stream);
+
+/// A direction in space, uniformly distributed: an integer point of the cube [-2^20, 2^20]^3, drawn again outside its
+/// inscribed ball. Not of unit length. Draws and tests are on integers, so it is the same on all platforms to the bit.
+///
+/// Part of a mark's format: the source of geodesic strips lies where it points. Where nothing is to be found again,
+/// direction<3>() has the unit length.
+[[nodiscard]] Point integer_direction(Stream& stream);
 
 /// A uniformly distributed unit vector of 3 or 4 dimensions, by rejection from the cube: no function but the square
 /// root, which IEEE 754 rounds correctly.

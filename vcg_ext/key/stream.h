@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <array>
 #include <cstddef>
@@ -19,7 +20,8 @@ public:
     /// The next eight bytes, little-endian.
     std::uint64_t next();
 
-    /// Uniform in [0, n), by rejection. \pre n > 0
+    /// Uniform in [0, n), by rejection.
+    /// \pre n > 0
     std::uint64_t below(std::uint64_t n);
 
     /// Uniform permutation of 0 .. n-1 by Fisher-Yates on below().

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "spectral.h"
 
 #include "../base/error.h"
@@ -5,6 +6,8 @@
 #include "../carrier/two_means.h"
 #include "../geometry/chebyshev.h"
 #include "../geometry/eigenbasis.h"
+#include "../geometry/normals.h"
+#include "../geometry/size.h"
 #include "../placement/fold_guard.h"
 #include "closed_loop.h"
 
@@ -175,31 +178,11 @@ struct Aim {
     }
 };
 
-Points vertex_normals(const Surface& surface)
-{
-    Points normals(surface.points.size(), Point::Zero());
-    for (const Triangle& t : surface.triangles) {
-        const Point n = scaled_normal(surface.points, t);
-        for (const int v : t)
-            normals[v] += n;
-    }
-    for (Point& n : normals)
-        n.normalize();
-    return normals;
-}
-
 /// The energy above which noise and quantization of the usual strengths leave a ratio to be read: 1.6e-3 of the
 /// diagonal squared, but never more than three tenths of an edge.
 double least_energy(const Surface& surface)
 {
-    const double edges = ordered_sum(static_cast<int>(surface.triangles.size()), 0.0, [&](int f) {
-        const Triangle& t = surface.triangles[f];
-        return (surface.points[t[0]] - surface.points[t[1]]).norm() +
-               (surface.points[t[1]] - surface.points[t[2]]).norm() +
-               (surface.points[t[2]] - surface.points[t[0]]).norm();
-    });
-    const double edge = edges / (3.0 * static_cast<double>(surface.triangles.size()));
-    return std::pow(std::min(1.6e-3 * bounding_diagonal(surface), 0.3 * edge), 2);
+    return std::pow(std::min(1.6e-3 * bounding_diagonal(surface), 0.3 * mean_edge_length(surface)), 2);
 }
 
 /// Takes moves back by halves where a face would fold; returns how many vertices that befell.
@@ -299,7 +282,7 @@ Marking embed_spectral(const Cover& cover, const Plan& plan, const Bits& coded, 
 {
     const Surface& surface = cover.surface;
     const EdgeGraph graph = edge_graph(surface);
-    const Points normals = vertex_normals(surface);
+    const Points normals = vertex_normals(surface.points, surface.triangles);
     const Aim aim{options.strength, plan.options.as_printed ? 1 : 1.1, least_energy(surface)};
     PatchReading reading = read_with(surface, graph, plan, checked_frame(surface));
     const Frame first = reading.frame;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wave_embedding.h"
 
-#include "../base/parallel.h"
 #include "../base/progress.h"
 #include "../geometry/turns.h"
 #include "../geometry/wave_sums.h"
+#include "../base/parallel.h"
 #include "../placement/fold_guard.h"
 #include "../placement/wave_field.h"
 
@@ -117,6 +117,14 @@ WaveEmbedding embed_waves(const Cover& cover, const WavePlan& plan, const Bits& 
         for_each_index(body.topology.sites, [&](int v) { offset[v] += more[v]; });
     }
 
+    const double gap =
+        std::min((variances[0] - variances[1]) / variances[0], (variances[1] - variances[2]) / variances[1]);
+    if (result.worst > readable && gap < 0.03)
+        throw Error(
+            text("The body is round about one of its axes: two of its three variances differ by %.2f %% only, so "
+                 "the angle about that axis is not defined, and Waves cannot find it again. Choose another "
+                 "method.",
+                 100 * gap));
     const double length = 2 * pi / plan.vectors[worst_wave].norm() * body.radius / body.diagonal;
     if (result.worst > readable)
         throw Error(text("The mesh cannot be displaced as smoothly as Waves asks: wave %.0f, of length %.3f of the "

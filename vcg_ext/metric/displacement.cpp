@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "displacement.h"
 
 #include "../base/parallel.h"
+#include "../base/vcg_point.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,16 +24,13 @@ struct Sum {
     }
 };
 
-/// Three points of equal weight integrate a quadratic over a triangle exactly, and the squared distance to a plane is
-/// one.
+/// Three points of equal weight integrate a quadratic over a triangle exactly, and the squared distance to a
+/// plane is one.
 const std::array<Point, 3> quadrature = {Point(4, 1, 1) / 6, Point(1, 4, 1) / 6, Point(1, 1, 4) / 6};
 
 double distance(const Point& p, const Points& points, const Triangle& t)
 {
-    const auto relative = [&](int k) {
-        const Point q = points[t[k]] - p;
-        return vcg::Point3d(q.x(), q.y(), q.z());
-    };
+    const auto relative = [&](int k) { return to_vcg(points[t[k]] - p); };
     double distance = 0;
     vcg::Point3d nearest;
     vcg::TrianglePointDistance(vcg::Triangle3<double>(relative(0), relative(1), relative(2)), vcg::Point3d(0, 0, 0),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "distortion.h"
 
 #include "../base/check.h"
@@ -5,12 +6,14 @@
 #include "../base/weld.h"
 #include "../geometry/closest.h"
 #include "../geometry/moments.h"
+#include "../geometry/size.h"
 #include "../key/random.h"
 #include "../key/stream.h"
 #include "perceptual.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vcg_ext {
 
@@ -53,8 +56,8 @@ Pair make_pair_of(const Surface& reference, const Surface& measured)
     return {std::move(first.surface), std::move(second.surface), std::move(second.site_of_vertex), false};
 }
 
-/// Points spread over a surface: as many on every part as it has of the area, one at a random place in each of equal
-/// shares.
+/// Points spread over a surface: as many on every part as it has of the area, one at a random place in each
+/// of equal shares.
 class Sampling {
 public:
     Sampling(const Surface& surface, int count) : surface_(surface), count_(count)
@@ -104,13 +107,13 @@ struct OneWay {
 /// Distances of samples of `from` to `to`. Where both have the same faces, a point is no further than its counterpart:
 /// that tells the search where to stop.
 OneWay sampled(const Surface& from, const Surface& to, const ClosestSearch& nearest, bool same_faces, int samples,
-               std::uint64_t seed, const char* purpose)
+               std::uint64_t seed, const char* purpose, const Progress& progress, const char* phase)
 {
     constexpr int chunk = 4096;
     const Sampling sampling(from, samples);
     const double slack = 1e-12 * bounding_diagonal(to);
-    std::vector<OneWay> partial((samples + chunk - 1) / chunk);
-    for_chunks(samples, chunk, [&](int begin, int end) {
+    std::vector<OneWay> partial(chunk_count(samples, chunk));
+    for_chunks(samples, chunk, progress, phase, [&](int begin, int end) {
         Stream draws = seeded_stream(seed, purpose, begin / chunk);
         OneWay& part = partial[begin / chunk];
         for (int i = begin; i < end; ++i) {
@@ -136,10 +139,14 @@ OneWay sampled(const Surface& from, const Surface& to, const ClosestSearch& near
     return total;
 }
 
-std::vector<ClosestPoint> from_vertices(const Points& points, const ClosestSearch& nearest)
+std::vector<ClosestPoint> from_vertices(const Points& points, const ClosestSearch& nearest, const Progress& progress)
 {
+    constexpr int chunk = 4096;
     std::vector<ClosestPoint> result(points.size());
-    for_each_index(static_cast<int>(points.size()), [&](int v) { result[v] = nearest(points[v]); });
+    for_chunks(static_cast<int>(points.size()), chunk, progress, "Vertices", [&](int begin, int end) {
+        for (int v = begin; v < end; ++v)
+            result[v] = nearest(points[v]);
+    });
     return result;
 }
 
@@ -169,18 +176,10 @@ std::optional<double> signal_to_noise(const Pair& pair, const std::vector<Closes
     return 10 * std::log10(signal / noise);
 }
 
-double area(const Surface& surface)
-{
-    double twice = 0;
-    for (const Triangle& t : surface.triangles)
-        twice += scaled_normal(surface.points, t).norm();
-    return twice / 2;
-}
-
 void compare_sizes(const Pair& pair, DistortionReport& result)
 {
-    const double before = area(pair.reference);
-    result.area_change = (area(pair.measured) - before) / before;
+    const double before = surface_area(pair.reference);
+    result.area_change = (surface_area(pair.measured) - before) / before;
     if (!is_closed_and_oriented(pair.reference) || !is_closed_and_oriented(pair.measured)) {
         result.warnings.emplace_back("No change of volume: a mesh is open, or its faces are not oriented alike.");
         return;
@@ -206,6 +205,7 @@ DistortionReport measure(const Surface& reference, const Surface& measured, cons
     report(progress, 0, "Search trees");
     const Pair pair = make_pair_of(reference, measured);
     const ClosestSearch to_reference(pair.reference);
+    report(progress, 3, "Search trees");
     const ClosestSearch to_measured(pair.measured);
 
     DistortionReport result;
@@ -213,15 +213,14 @@ DistortionReport measure(const Surface& reference, const Surface& measured, cons
     result.samples = options.samples > 0
                          ? options.samples
                          : static_cast<int>(std::min<std::size_t>(10 * larger, std::numeric_limits<int>::max()));
-    report(progress, 5, "Reference to measured");
-    const OneWay forward =
-        sampled(pair.reference, pair.measured, to_measured, pair.same_faces, result.samples, options.seed, "forward");
-    report(progress, 35, "Measured to reference");
-    const OneWay backward =
-        sampled(pair.measured, pair.reference, to_reference, pair.same_faces, result.samples, options.seed, "backward");
-    report(progress, 65, "Vertices");
-    const std::vector<ClosestPoint> of_measured = from_vertices(pair.measured.points, to_reference);
-    const std::vector<ClosestPoint> of_reference = from_vertices(pair.reference.points, to_measured);
+    const OneWay forward = sampled(pair.reference, pair.measured, to_measured, pair.same_faces, result.samples,
+                                   options.seed, "forward", within(progress, 5, 35), "Reference to measured");
+    const OneWay backward = sampled(pair.measured, pair.reference, to_reference, pair.same_faces, result.samples,
+                                    options.seed, "backward", within(progress, 35, 65), "Measured to reference");
+    const std::vector<ClosestPoint> of_measured =
+        from_vertices(pair.measured.points, to_reference, within(progress, 65, 70));
+    const std::vector<ClosestPoint> of_reference =
+        from_vertices(pair.reference.points, to_measured, within(progress, 70, 75));
 
     result.mrms = std::sqrt(std::max(forward.squares, backward.squares) / result.samples);
     result.mean = std::max(forward.sum, backward.sum) / result.samples;
@@ -233,8 +232,7 @@ DistortionReport measure(const Surface& reference, const Surface& measured, cons
     result.snr_db = signal_to_noise(pair, of_measured);
     compare_sizes(pair, result);
 
-    report(progress, 75, "Structural distance");
-    result.msdm = msdm(pair.reference, pair.measured, pair.same_faces);
+    result.msdm = msdm(pair.reference, pair.measured, pair.same_faces, within(progress, 75, 100));
     if (!pair.same_faces)
         result.warnings.emplace_back(
             "The meshes differ in their faces: SNR and MSDM compare vertices with the nearest points instead.");

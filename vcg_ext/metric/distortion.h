@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../base/error.h"
 #include "../base/progress.h"
@@ -23,8 +24,7 @@ struct DistortionReport {
     double hausdorff_relative = 0;
     double mean_relative = 0;
     std::optional<double> snr_db; ///< signal to noise of the vertices; empty where nothing moved (it is infinite)
-    std::optional<double>
-        msdm; ///< perceptual distance in [0, 1), see perceptual.h; empty with a warning where undefined
+    std::optional<double> msdm;   ///< perceptual distance in [0, 1.34], see perceptual.h; measure() always fills it
     std::optional<double> volume_change; ///< of the enclosed volume, relative; empty where a mesh encloses none
     double area_change = 0;              ///< relative
     int samples = 0;                     ///< per direction, as used
@@ -42,7 +42,7 @@ struct DistortionReport {
 /// nearest points.
 ///
 /// \throw Error      where a mesh has no face with an area, or a coordinate is not finite
-/// \throw Cancelled  where `progress` returned false
+/// \throw Cancelled  where `progress` returned false; it is asked some twenty times a phase, by the calling thread
 [[nodiscard]] DistortionReport measure(const Surface& reference, const Surface& measured,
                                        const DistortionOptions& options = {}, const Progress& progress = {});
 

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "perceptual.h"
 
 #include "../base/mesh.h"
 #include "../base/parallel.h"
 #include "../geometry/closest.h"
-#include "../geometry/neighbours.h"
+#include "../geometry/edge_graph.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +14,8 @@ namespace vcg_ext {
 
 namespace {
 
-/// vcglib walks along borders, and where more than two faces share an edge it never arrives. So such edges become
-/// borders.
+/// vcglib walks along borders, and where more than two faces share an edge it never arrives. So such
+/// edges become borders.
 void cut_at_non_manifold_edges(Mesh& mesh)
 {
     std::vector<std::pair<Face*, int>> cut;
@@ -68,11 +69,7 @@ private:
 /// Visits what lies within `radius` of vertex after vertex, along the edges.
 class Windows {
 public:
-    Windows(const Surface& surface, double radius)
-        : surface_(surface), ring_(neighbours(static_cast<int>(surface.points.size()), surface.triangles)),
-          radius_(radius)
-    {
-    }
+    Windows(const Surface& surface, double radius) : surface_(surface), graph_(edge_graph(surface)), radius_(radius) {}
 
     /// Calls `visit(a, b, t)` for the places a + t (b - a) between two vertices.
     template <class Visit>
@@ -84,7 +81,7 @@ public:
         for (std::size_t next = 0; next < queue.size(); ++next) {
             const int v = queue[next];
             visit(v, v, 0.0);
-            for (const int* other = ring_.begin(v); other != ring_.end(v); ++other) {
+            for (const int* other = graph_.begin(v); other != graph_.end(v); ++other) {
                 if (seen[*other] == centre)
                     continue;
                 if ((surface_.points[*other] - o).norm() <= radius_) {
@@ -107,19 +104,21 @@ private:
     }
 
     const Surface& surface_;
-    Neighbours ring_;
+    EdgeGraph graph_;
     double radius_;
 };
 
+constexpr const char* phase = "Structural distance";
+
 /// Mean of the cubed local distances, over windows of `surface`; `x` and `y` are the two curvatures of its vertices.
 double mean_cubed_distance(const Surface& surface, const std::vector<double>& x, const std::vector<double>& y,
-                           double radius, double c)
+                           double radius, double c, const Progress& progress)
 {
     const int vertices = static_cast<int>(surface.points.size());
     const Windows windows(surface, radius);
     constexpr int chunk = 16384;
-    std::vector<double> sums((vertices + chunk - 1) / chunk);
-    for_chunks(vertices, chunk, [&](int begin, int end) {
+    std::vector<double> sums(chunk_count(vertices, chunk));
+    for_chunks(vertices, chunk, progress, phase, [&](int begin, int end) {
         std::vector<int> queue;
         std::vector<int> seen(vertices, -1);
         Window window;
@@ -137,12 +136,12 @@ double mean_cubed_distance(const Surface& surface, const std::vector<double>& x,
 }
 
 /// The vertex value of `from`, at the places nearest to the vertices of `to`.
-std::vector<double> carried_over(const std::vector<double>& value, const Surface& from, const Surface& to)
+std::vector<double> carried_over(const std::vector<double>& value, const Surface& from, const Surface& to,
+                                 const Progress& progress)
 {
     const ClosestSearch nearest(from);
-    std::vector<double> result(to.points.size());
-    for_each_index(static_cast<int>(to.points.size()), [&](int v) {
-        const ClosestPoint at = nearest(to.points[v]);
+    const auto value_at = [&](const Point& place) {
+        const ClosestPoint at = nearest(place);
         const Triangle& t = from.triangles[at.face];
         const Point normal = scaled_normal(from.points, t);
         Point weights;
@@ -155,9 +154,14 @@ std::vector<double> carried_over(const std::vector<double>& value, const Surface
             return (from.points[a] - at.point).squaredNorm() < (from.points[b] - at.point).squaredNorm();
         };
         if (std::abs(weights.sum() - 1) < 1e-6)
-            result[v] = weights.dot(Point(value[t[0]], value[t[1]], value[t[2]]));
-        else // a needle
-            result[v] = value[*std::min_element(t.begin(), t.end(), nearer)];
+            return weights.dot(Point(value[t[0]], value[t[1]], value[t[2]]));
+        return value[*std::min_element(t.begin(), t.end(), nearer)]; // a needle
+    };
+    constexpr int chunk = 4096;
+    std::vector<double> result(to.points.size());
+    for_chunks(static_cast<int>(to.points.size()), chunk, progress, phase, [&](int begin, int end) {
+        for (int v = begin; v < end; ++v)
+            result[v] = value_at(to.points[v]);
     });
     return result;
 }
@@ -190,20 +194,19 @@ std::vector<double> mean_curvature(const Surface& surface)
 
 double msdm(const Surface& reference, const Surface& measured, bool same_faces, const Progress& progress)
 {
-    Eigen::AlignedBox3d box;
-    for (const Point& p : reference.points)
-        box.extend(p);
+    const Eigen::AlignedBox3d box = bounding_box(reference.points);
     const double radius = 0.005 * box.diagonal().maxCoeff();
     const double c = 0.1 / box.diagonal().norm();
     report(progress, 0, "Curvature");
     const std::vector<double> x = mean_curvature(reference);
+    report(progress, 10, "Curvature");
     const std::vector<double> y = mean_curvature(measured);
-    report(progress, 30, "Structural distance");
     if (same_faces)
-        return std::cbrt(mean_cubed_distance(reference, x, y, radius, c));
-    const double onto_measured = mean_cubed_distance(measured, carried_over(x, reference, measured), y, radius, c);
-    report(progress, 65, "Structural distance");
-    const double onto_reference = mean_cubed_distance(reference, x, carried_over(y, measured, reference), radius, c);
+        return std::cbrt(mean_cubed_distance(reference, x, y, radius, c, within(progress, 20, 100)));
+    const std::vector<double> x_there = carried_over(x, reference, measured, within(progress, 20, 30));
+    const double onto_measured = mean_cubed_distance(measured, x_there, y, radius, c, within(progress, 30, 60));
+    const std::vector<double> y_there = carried_over(y, measured, reference, within(progress, 60, 70));
+    const double onto_reference = mean_cubed_distance(reference, x, y_there, radius, c, within(progress, 70, 100));
     return (std::cbrt(onto_measured) + std::cbrt(onto_reference)) / 2;
 }
 

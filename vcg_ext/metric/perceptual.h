@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../base/error.h"
 #include "../base/progress.h"
@@ -12,7 +13,8 @@ namespace vcg_ext {
 [[nodiscard]] std::vector<double> mean_curvature(const Surface& surface);
 
 /// Mesh structural distortion measure (Lavoue et al. 2006): how far the local statistics of curvature differ. 0 for
-/// equal meshes, towards 1 where they have nothing in common.
+/// equal meshes, about 1 where they have nothing in common. S reaches 2 where one's curvature falls as the other's
+/// rises: so at most 2.4^(1/3) = 1.34.
 ///
 /// For each vertex, the window is what is connected to it within a sphere of radius 0.005 of the longest side of the
 /// bounding box: vertices, and the places where edges leave the sphere, with the curvature interpolated. Of mean,
@@ -24,10 +26,10 @@ namespace vcg_ext {
 /// c = 0.1 over the diagonal, a curvature too small to see, keeps the rounding of flat regions out; the paper has none.
 ///
 /// \param same_faces both surfaces have the same faces, and vertices of one number belong together. Otherwise the
-/// windows are
-///                   the measured mesh's and the reference's curvatures are taken at the nearest points, then the other
-///                   way round; the result is the mean of both, as MSDM2 (Lavoue 2011) has it.
+///                   windows are the measured mesh's and the reference's curvatures are taken at the nearest points,
+///                   then the other way round; the result is the mean of both, as MSDM2 (Lavoue 2011) has it.
 /// \pre welded surfaces with an area
+/// \throw Cancelled where `progress` returned false
 [[nodiscard]] double msdm(const Surface& reference, const Surface& measured, bool same_faces,
                           const Progress& progress = {});
 

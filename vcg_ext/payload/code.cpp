@@ -67,6 +67,13 @@ int lowest(const Words& words)
     return -1;
 }
 
+/// The weight of the i-th from 0 of so many things to try, the likeliest first; the last takes what is left of 1.
+double weight_of(std::size_t i, std::size_t count)
+{
+    const double rank = static_cast<double>(i + 1);
+    return 1 / (i + 1 < count ? rank * (rank + 1) : rank);
+}
+
 /// The step between padded lengths at a length.
 int step(int bits)
 {
@@ -152,8 +159,7 @@ std::vector<Hypothesis> hypotheses(int carriers)
                      [&](int a, int b) { return std::abs(2 * a - carriers) < std::abs(2 * b - carriers); });
     std::vector<Hypothesis> result;
     for (std::size_t i = 0; i < lengths.size(); ++i) {
-        const double rank = static_cast<double>(i + 1);
-        const double weight = 1 / (i + 1 < lengths.size() ? rank * (rank + 1) : rank); // the last takes what is left
+        const double weight = weight_of(i, lengths.size());
         if (lengths[i] == 32) {
             result.push_back({32, Kind::Id, weight / 2});
             result.push_back({32, Kind::Text, weight / 2});
@@ -185,6 +191,20 @@ int recommended_carriers(const Message& message)
     throw Error("The message is too long: " + need(message) + ", and up to " +
                 std::to_string(message.kind == Kind::Bits ? ladder.back() : ladder.back() / 2) +
                 " can be hidden so that they survive. Shorten it.");
+}
+
+std::vector<CarrierCount> carrier_counts(int first)
+{
+    std::vector<int> order;
+    if (first != 0)
+        order.push_back(first);
+    for (const int carriers : ladder)
+        if (carriers != first)
+            order.push_back(carriers);
+    std::vector<CarrierCount> result;
+    for (std::size_t i = 0; i < order.size(); ++i)
+        result.push_back({order[i], weight_of(i, order.size())});
+    return result;
 }
 
 double clean_log_p(const Message& message, int carriers)

@@ -60,7 +60,7 @@ private:
 struct Hypothesis {
     int bits = 0;           ///< message bits, with the padding
     Kind kind = Kind::Text; ///< Text or Id
-    double weight = 0;      ///< in (0, 1); all of them sum to 1
+    double weight = 0;      ///< above 0; all of them sum to 1
 };
 
 /// What the detector tries where it knows the key and the number of carriers only: lengths of coded_length() that leave
@@ -75,9 +75,20 @@ struct Hypothesis {
 /// 64, 96, 128, 192, 256, 384, 512, 768, 1024: the numbers of carriers that recommended_carriers() chooses from.
 [[nodiscard]] std::vector<int> recommended_numbers();
 
-/// The least of 64, 96, 128, 192, 256, 384, 512, 768, 1024 carriers that is at least twice the message's bits (raw
-/// bits: that is at least their number). \throw Error where there is none: says what the message needs
+/// The least of recommended_numbers() that is at least twice the message's bits (raw bits: that is at least their
+/// number). \throw Error where there is none: says what the message needs
 [[nodiscard]] int recommended_carriers(const Message& message);
+
+/// A number of carriers that a detector tries.
+struct CarrierCount {
+    int carriers = 0;
+    double weight = 0; ///< above 0; all of them sum to 1
+};
+
+/// What a detector tries that does not know the number of carriers: the recommended ones from the least, and before
+/// them `first`, where it is not 0: the expected message's own. The i-th weighs 1 / (i (i + 1)): the more carriers, the
+/// less a weight matters.
+[[nodiscard]] std::vector<CarrierCount> carrier_counts(int first = 0);
 
 /// log10 of the best that a reader with the key alone can ever get for a message of this length: all signs right.
 /// 1e-6 is out of reach where it is above -6.

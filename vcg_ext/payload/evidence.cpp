@@ -89,7 +89,7 @@ double SignTail::log10_chernoff(double total) const
     };
     double low = 0;
     double high = 1 / sum_;
-    while (falling(high) && high < 1e6)
+    while (falling(high) && high < 1e15)
         high *= 4;
     for (int step = 0; step < 30; ++step) {
         const double middle = (low + high) / 2;

@@ -58,7 +58,7 @@ std::string show_message(const Bits& bits, Kind kind)
             number = number << 1 | bit;
         return std::string(id_prefix) + std::to_string(number);
     }
-    const std::string text = format_message(bits);
+    std::string text = format_message(bits);
     if (!starts_with(text, id_prefix))
         return text;
     static constexpr char digits[] = "0123456789abcdef";

@@ -36,34 +36,16 @@ int reversed(int index, int levels)
     return result;
 }
 
-static const int BETA[11] = {0,
-                             0,
-                             0,
-                             0,
-                             0,
-                             0,
-                             0,
-                             0,
-                             getenv("B8") ? atoi(getenv("B8")) : 110,
-                             getenv("B9") ? atoi(getenv("B9")) : 115,
-                             getenv("B10") ? atoi(getenv("B10")) : 118};
-static const int THIN[11] = {0,
-                             0,
-                             0,
-                             0,
-                             0,
-                             0,
-                             0,
-                             0,
-                             getenv("T8") ? atoi(getenv("T8")) : 15,
-                             getenv("T9") ? atoi(getenv("T9")) : 0,
-                             getenv("T10") ? atoi(getenv("T10")) : 0};
 constexpr int longest_by_weight = 7; ///< levels up to which rows are ranked by their weight alone
+
+/// How well an index of u keeps a bit: up to 2^7 by the weight of its row (Reed-Muller), which a list of 32 can still
+/// follow; above by the beta expansion (He et al. 2017), with a beta between that and the 1.19 of plain polar codes.
 std::int64_t rank(int index, int levels)
 {
+    const std::int64_t hundredths = levels == 8 ? 110 : levels == 9 ? 113 : 116;
     std::int64_t sum = 0;
     std::int64_t power = 1'000'000'000'000;
-    for (int level = 0; level < levels; ++level, power = power / 100 * BETA[levels])
+    for (int level = 0; level < levels; ++level, power = power / 100 * hundredths)
         if (index >> level & 1)
             sum += levels <= longest_by_weight ? 1 : power;
     return sum;
@@ -73,10 +55,9 @@ std::int64_t rank(int index, int levels)
 /// these, every so many-th in the order of u is taken. Taking the best ones instead gives many words of least weight.
 std::pair<int, int> doubtful(const std::vector<int>& order, int bits, int levels)
 {
-    const int size = static_cast<int>(order.size());
     if (levels > longest_by_weight) {
-        int t = bits * THIN[levels] / 100;
-        return {bits - std::max(t, 1), std::min(bits + t, size)};
+        const int some = bits / 12;
+        return {bits - some, std::min(bits + some, static_cast<int>(order.size()))};
     }
     const std::int64_t least = rank(order[bits - 1], levels);
     const auto below = [&](int index) { return rank(index, levels) < least; };
@@ -250,29 +231,29 @@ PolarCode polar_code(int bits, int carriers)
         ++code.levels;
     const int size = 1 << code.levels;
 
-    static const int SH = getenv("SH") ? atoi(getenv("SH")) : 44;
-    const bool S = bits * 100 > SH * carriers;
-    // Punctured are the first indices in bit-reversed order: the same indices of u can hold nothing.
+    // What has no carrier are the first or the last indices in bit-reversed order: punctured at low rates, so erased
+    // and the same indices of u hold nothing, and else shortened, so zero with the same indices of u.
+    const bool shortened = 5 * bits > carriers;
     std::vector<int> order;
-    for (int index = 0; index < size; ++index)
-        if ((S ? reversed(index, code.levels) < carriers : reversed(index, code.levels) >= size - carriers)) {
+    for (int index = 0; index < size; ++index) {
+        const int turned = reversed(index, code.levels);
+        const bool carried = shortened ? turned < carriers : turned >= size - carriers;
+        code.zero.push_back(shortened && !carried);
+        if (carried) {
             code.place.push_back(index);
             order.push_back(index);
         }
+    }
     std::stable_sort(order.begin(), order.end(),
                      [&](int a, int b) { return rank(a, code.levels) > rank(b, code.levels); });
 
     const auto [first, last] = doubtful(order, bits, code.levels);
     std::sort(order.begin() + first, order.begin() + last);
     code.holds.assign(size, 0);
-    code.zero.assign(size, 0);
-    if (S)
-        for (int i = 0; i < size; ++i)
-            code.zero[i] = reversed(i, code.levels) >= carriers;
     for (int i = 0; i < first; ++i)
         code.holds[order[i]] = 1;
-    for (int i = 0; i < bits - first; ++i)
-        code.holds[order[first + i * (last - first) / (bits - first)]] = 1;
+    for (int i = first; i < bits; ++i)
+        code.holds[order[first + (i - first) * (last - first) / (bits - first)]] = 1;
     return code;
 }
 

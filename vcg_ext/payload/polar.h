@@ -12,8 +12,8 @@ namespace vcg_ext {
 ///
 /// u = message and parity bits, x = u F^m with F = (1 0, 1 1), natural order. Plain polar codes of such lengths have
 /// many words of least weight; the parity checks and a choice of rows between Reed-Muller's and the most reliable thin
-/// them out. Where the length is no power of two, the rest of x is punctured. All choices are by measurement:
-/// tests/benchmark/code_rates. They are made with integers, so all machines agree.
+/// them out. Where the length is no power of two, the rest of x is shortened, or punctured at rates up to 1/5. All
+/// choices are by measurement (tests/benchmark/code_rates) and made with integers, so all machines agree.
 struct PolarCode {
     int bits = 0;                    ///< message bits
     int levels = 0;                  ///< m: 2^m is the least power of two that has room for the carriers

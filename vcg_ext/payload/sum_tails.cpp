@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 
 namespace vcg_ext {
 
@@ -76,7 +78,7 @@ double log_tail_of_cosines(int n, double sum)
         1, [&](double k) { return n * bessel(k).ratio - s; }, [&](double k) { return n * bessel(k).log_i0 - k * s; });
 }
 
-CosineTail::CosineTail(int n) : lines_(16 * n), scale_(16), last_(16 * n - 1)
+CosineTail::CosineTail(int n) : lines_(8 * n), scale_(8), last_(8 * n - 1)
 {
     // The line of each piece is the tangent at its middle.
     double k = 0;
@@ -93,6 +95,15 @@ CosineTail::CosineTail(int n) : lines_(16 * n), scale_(16), last_(16 * n - 1)
         k = low;
         lines_[i] = {k, n * bessel(k).log_i0};
     }
+}
+
+const CosineTail& cosine_tail(int n)
+{
+    static std::mutex guard;
+    static std::map<int, CosineTail> tables;
+    const std::lock_guard<std::mutex> lock(guard);
+    const auto found = tables.find(n);
+    return found != tables.end() ? found->second : tables.emplace(n, CosineTail(n)).first->second;
 }
 
 double log_tail_of_signs(const std::vector<double>& l, double sum)

@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "../base/parallel.h"
 #include "../base/surface.h"
+#include "../geometry/normals.h"
+#include "../geometry/size.h"
 
 #include <algorithm>
 
@@ -11,14 +13,9 @@ struct Cover {
     /// \param unmarked must outlive the cover
     explicit Cover(const Surface& unmarked)
         : surface(unmarked), points(surface.points), triangles(surface.triangles),
-          around(vertex_faces(static_cast<int>(points.size()), triangles)), normals(triangles.size()),
-          areas(triangles.size())
+          around(vertex_faces(static_cast<int>(points.size()), triangles)), normals(face_normals(points, triangles)),
+          areas(doubled_areas(points, triangles))
     {
-        for_each_index(static_cast<int>(triangles.size()), [&](int f) {
-            const Point n = scaled_normal(points, triangles[f]);
-            areas[f] = n.norm();
-            normals[f] = areas[f] > 0 ? Point(n / areas[f]) : Point(Point::Zero());
-        });
     }
 
     const Surface& surface;
@@ -38,6 +35,15 @@ struct Cover {
     if (n.isZero())
         return false; // without an area there is no side to turn away from
     return n.dot(scaled_normal_now) < std::max(0.5 * scaled_normal_now.norm(), cover.areas[face] / 20);
+}
+
+/// Whether a face around vertex `v` is folded where that is at `position` and its neighbours are where
+/// `current` has them.
+[[nodiscard]] inline bool folds_around(const Cover& cover, const Points& current, int v, const Point& position)
+{
+    return std::any_of(cover.around.begin(v), cover.around.end(v), [&](int f) {
+        return folded(cover, f, scaled_normal_with(current, cover.triangles[f], v, position));
+    });
 }
 
 } // namespace vcg_ext

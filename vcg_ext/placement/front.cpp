@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "front.h"
 
 #include "../base/parallel.h"
@@ -26,7 +27,7 @@ std::vector<Eigen::Matrix3d> inverse_metrics(const Cover& cover)
         double area = 0;
         for (const int* f = cover.around.begin(v); f != cover.around.end(v); ++f) {
             const Point& n = cover.normals[*f];
-            const double weight = scaled_normal(cover.points, cover.triangles[*f]).norm();
+            const double weight = cover.areas[*f];
             normals += weight * n * n.transpose();
             area += weight;
         }
@@ -41,9 +42,10 @@ std::vector<Eigen::Matrix3d> inverse_metrics(const Cover& cover)
 class Front {
 public:
     Front(const Cover& cover, const std::vector<Arrival>& arrivals, const std::vector<double>& targets,
-          double tolerance, const FrontOptions& options)
-        : cover_(cover), arrivals_(arrivals), targets_(targets), tolerance_(tolerance),
-          options_(options), now_{cover.points, cover.triangles}, moves_(targets.size(), 0), missed_(targets.size(), 0)
+          double tolerance)
+        : cover_(cover), arrivals_(arrivals), targets_(targets),
+          tolerance_(tolerance), now_{cover.points, cover.triangles}, moves_(targets.size(), 0),
+          missed_(targets.size(), 0)
     {
         order_.resize(targets.size());
         std::iota(order_.begin(), order_.end(), 0);
@@ -89,19 +91,13 @@ private:
 
     [[nodiscard]] Candidate candidate(int v, const Point& position) const
     {
-        const Arrival when = arrival(now_, cover_.around, known_, v, position, options_.march);
+        const Arrival when = arrival(now_, cover_.around, known_, v, position);
         return {position, when, std::abs(targets_[v] - when.distance)};
     }
 
     [[nodiscard]] bool folds(int v, const Point& position) const
     {
-        for (const int* f = cover_.around.begin(v); f != cover_.around.end(v); ++f) {
-            const Triangle& t = cover_.triangles[*f];
-            const auto at = [&](int w) -> const Point& { return w == v ? position : now_.points[w]; };
-            if (folded(cover_, *f, (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]))))
-                return true;
-        }
-        return false;
+        return folds_around(cover_, now_.points, v, position);
     }
 
     /// The move of unit arrival that is shortest in the vertex' metric: A^-1 g / (g^T A^-1 g).
@@ -198,7 +194,6 @@ private:
     const std::vector<Arrival>& arrivals_;
     const std::vector<double>& targets_;
     double tolerance_;
-    FrontOptions options_;
     Surface now_;
     std::vector<double> known_; ///< when the front passed the vertices that it has
     std::vector<int> moves_;
@@ -224,7 +219,7 @@ std::vector<double> front_mobility(const Cover& cover, const std::vector<Arrival
 FrontPlacement place_front(const Cover& cover, const std::vector<Arrival>& arrivals, const std::vector<double>& targets,
                            double tolerance, const FrontOptions& options)
 {
-    Front front(cover, arrivals, targets, tolerance, options);
+    Front front(cover, arrivals, targets, tolerance);
     if (options.scheme == FrontScheme::PredictCorrect)
         front.predict_and_correct();
     else

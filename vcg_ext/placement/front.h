@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../geometry/fast_marching.h"
 #include "cover.h"
@@ -9,12 +10,10 @@ namespace vcg_ext {
 /// How the front placement places its vertices.
 enum class FrontScheme {
     /// All vertices at once along the direction that costs least distance from the surface; then the rest in the order
-    /// of
-    /// the front.
+    /// of the front.
     PredictCorrect,
     /// The thesis' vertex placement scheme: one vertex after the other along the front's gradient (theorem 1), without
-    /// its
-    /// limit (4.21), which as printed or put right leaves more vertices short of their targets than it saves.
+    /// its limit (4.21), which as printed or put right leaves more vertices short of their targets than it saves.
     Sequential
 };
 
@@ -28,7 +27,6 @@ struct MoveCounts {
 
 struct FrontOptions {
     FrontScheme scheme = FrontScheme::PredictCorrect;
-    MarchOptions march;
 };
 
 struct FrontPlacement {
@@ -46,7 +44,8 @@ struct FrontPlacement {
 ///
 /// \param arrivals  march() on the cover
 /// \param targets   one a vertex; NaN: it must not move. None for the corners of the source's face, as nothing comes
-/// before \param tolerance of the distances
+///                  before
+/// \param tolerance of the distances
 [[nodiscard]] FrontPlacement place_front(const Cover& cover, const std::vector<Arrival>& arrivals,
                                          const std::vector<double>& targets, double tolerance,
                                          const FrontOptions& options = {});

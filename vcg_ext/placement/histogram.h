@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../carrier/carriers.h"
 #include "../carrier/statistic.h"
@@ -12,7 +13,9 @@ namespace vcg_ext {
 ///
 /// A value that is costly to move can be spared: its own exponent is beta^mobility, so that the others bear more.
 ///
-/// \param values in [0, 1]   \param target in (0, 1)   \param guard in [0, 0.5)
+/// \param values in [0, 1]
+/// \param target in (0, 1)
+/// \param guard in [0, 0.5)
 /// \param mobility one a value, not negative, relative to each other; 0: it must not move; empty: all the same
 /// \return the mapped values, in the same order
 [[nodiscard]] std::vector<double> map_histogram(const std::vector<double>& values, Statistic statistic, double target,

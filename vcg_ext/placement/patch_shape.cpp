@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "patch_shape.h"
 
 #include <Eigen/Eigenvalues>
@@ -42,7 +43,8 @@ public:
         }
     }
 
-    /// d of one vertex (Sherman-Morrison). \param b each below `softness`
+    /// d of one vertex (Sherman-Morrison).
+    /// \param b each below `softness`
     [[nodiscard]] Point displacement(std::size_t i, const Point& b) const
     {
         const Point c = (softness - b.array()).inverse();

@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "selective.h"
 
+#include "../base/vcg_point.h"
 #include "radial.h"
 
 #include <cmath>
@@ -12,18 +14,13 @@ namespace vcg_ext {
 
 namespace {
 
-vcg::Point3d to_vcg(const Point& p)
-{
-    return {p.x(), p.y(), p.z()};
-}
-
 Point nearest_in_triangle(const std::array<Point, 3>& face, const Point& from)
 {
     const vcg::Triangle3<double> triangle(to_vcg(face[0] - from), to_vcg(face[1] - from), to_vcg(face[2] - from));
     double distance = 0;
     vcg::Point3d nearest;
     vcg::TrianglePointDistance(triangle, vcg::Point3d(0, 0, 0), distance, nearest);
-    return from + Point(nearest[0], nearest[1], nearest[2]);
+    return from + from_vcg(nearest);
 }
 
 /// The point between `from` and `to` whose distance from the centre is `norm`.
@@ -38,16 +35,6 @@ Point on_the_way(const Point& from, const Point& to, const Point& centre, double
     // The norm grows or falls towards `to`, and accordingly the greater or the smaller root is the first met.
     const double t = c < 0 ? (-b + root) / a : (-b - root) / a;
     return from + std::clamp(t, 0.0, 1.0) * way;
-}
-
-bool folds_around(const Cover& cover, int v, const Point& moved)
-{
-    return std::any_of(cover.around.begin(v), cover.around.end(v), [&](int f) {
-        std::array<Point, 3> corner;
-        for (int k = 0; k < 3; ++k)
-            corner[k] = cover.triangles[f][k] == v ? moved : cover.points[cover.triangles[f][k]];
-        return folded(cover, f, (corner[1] - corner[0]).cross(corner[2] - corner[0]));
-    });
 }
 
 /// Quadric of the planes of the faces around `v` (5.18), in coordinates relative to `v`.
@@ -91,7 +78,7 @@ Point place_selective(const Cover& cover, int v, const Point& centre, double nor
         const Point candidate =
             selective_candidate(here, {cover.points[t[0]], cover.points[t[1]], cover.points[t[2]]}, centre, norm);
         const double error = quadric.Apply(to_vcg(candidate - here));
-        if (error < least && !folds_around(cover, v, candidate)) {
+        if (error < least && !folds_around(cover, cover.points, v, candidate)) {
             least = error;
             best = candidate;
         }

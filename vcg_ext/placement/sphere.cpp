@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "sphere.h"
 
 #include <Eigen/Cholesky>
@@ -92,12 +93,7 @@ Eigen::Matrix3d sphere_energy(const Cover& cover, const Points& current, int v, 
     for (const int* f = cover.around.begin(v); f != cover.around.end(v); ++f) {
         const Point& n = cover.normals[*f];
         sum += k1 * n * n.transpose();
-        std::array<Point, 3> corner;
-        for (int k = 0; k < 3; ++k) {
-            const int w = cover.triangles[*f][k];
-            corner[k] = w == v ? cover.points[v] : current[w];
-        }
-        const Point now = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+        const Point now = scaled_normal_with(current, cover.triangles[*f], v, cover.points[v]);
         const double squared = now.squaredNorm();
         if (squared > 0)
             sum += (k2 / squared) * now * now.transpose();

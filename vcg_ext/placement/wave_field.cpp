@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wave_field.h"
 
-#include "../base/parallel.h"
 #include "../carrier/wave_flows.h"
 #include "../geometry/turns.h"
 #include "../geometry/wave_sums.h"
+#include "../base/parallel.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -74,7 +74,7 @@ std::vector<double> hat_means(const WaveBody& body, const WavePlan& plan, const 
 
 Points offset_directions(const WaveBody& body)
 {
-    constexpr double ridge = 1e-3;
+    constexpr double ridge = 1e-4;
     constexpr double longest = 3;
     const double outward = body.frame.measure < 0 ? -1 : 1;
     const int sites = body.topology.sites;

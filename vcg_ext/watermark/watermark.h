@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// What a host calls: embed(), detect(), their options and reports.
 #include "detect.h"

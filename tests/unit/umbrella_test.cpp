@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "vcg_ext/base/weld.h"
-#include "vcg_ext/geometry/taubin.h"
+#include "vcg_ext/geometry/laplacian.h"
+#include "vcg_ext/geometry/umbrella.h"
 
 #include "support/load.h"
 
