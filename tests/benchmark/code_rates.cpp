@@ -5,9 +5,9 @@
 //   2010); lengths: the distance to it at a frame error rate of 1e-2, and milliseconds a decode, for many n and K;
 //   proofs: where the key alone proves what it reads.
 
+#include "vcg_ext/key/random.h"
 #include "vcg_ext/payload/code.h"
 #include "vcg_ext/payload/evidence.h"
-#include "vcg_ext/key/random.h"
 
 #include <algorithm>
 #include <chrono>

@@ -3,12 +3,12 @@
 // Usage: wave_tables [--strength 1e-4] [--waves 64] [--keys 1] [--row TEXT] [--ways] [mesh.off ...]
 // --row TEXT: only attacks whose label contains it. --ways: also where the best way lies (view, t, u).
 
-#include "vcg_ext/base/weld.h"
 #include "support/load.h"
 #include "vcg_ext/attack/attack.h"
-#include "vcg_ext/metric/distortion.h"
 #include "vcg_ext/base/parallel.h"
+#include "vcg_ext/base/weld.h"
 #include "vcg_ext/method/wave_embedding.h"
+#include "vcg_ext/metric/distortion.h"
 
 #include <chrono>
 #include <cmath>

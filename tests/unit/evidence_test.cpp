@@ -2,8 +2,8 @@
 #include "vcg_ext/payload/evidence.h"
 
 #include "vcg_ext/base/error.h"
-#include "vcg_ext/payload/binomial.h"
 #include "vcg_ext/key/random.h"
+#include "vcg_ext/payload/binomial.h"
 
 #include <gtest/gtest.h>
 

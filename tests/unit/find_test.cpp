@@ -2,8 +2,8 @@
 #include "vcg_ext/payload/find.h"
 
 #include "vcg_ext/base/error.h"
-#include "vcg_ext/payload/code.h"
 #include "vcg_ext/key/random.h"
+#include "vcg_ext/payload/code.h"
 
 #include <gtest/gtest.h>
 

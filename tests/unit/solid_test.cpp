@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vcg_ext/base/weld.h"
 #include "support/load.h"
 #include "support/shapes.h"
 #include "support/topology.h"
+#include "vcg_ext/base/weld.h"
 #include "vcg_ext/geometry/solid.h"
 
 #include <algorithm>

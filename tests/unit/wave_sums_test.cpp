@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/load.h"
 #include "support/shapes.h"
+#include "vcg_ext/base/parallel.h"
 #include "vcg_ext/geometry/turns.h"
 #include "vcg_ext/geometry/wave_sums.h"
-#include "vcg_ext/base/parallel.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vcg_ext/base/weld.h"
 #include "support/load.h"
 #include "support/shapes.h"
 #include "support/topology.h"
 #include "vcg_ext/attack/attack.h"
-#include "vcg_ext/geometry/wave_sums.h"
 #include "vcg_ext/base/parallel.h"
-#include "vcg_ext/placement/fold_guard.h"
-#include "vcg_ext/placement/wave_field.h"
+#include "vcg_ext/base/weld.h"
+#include "vcg_ext/geometry/wave_sums.h"
 #include "vcg_ext/key/random.h"
 #include "vcg_ext/method/wave_embedding.h"
+#include "vcg_ext/placement/fold_guard.h"
+#include "vcg_ext/placement/wave_field.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
