@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wave_flows.h"
 
-#include "../geometry/laplacian.h"
 #include "../base/parallel.h"
+#include "../geometry/laplacian.h"
 
 #include <algorithm>
 #include <cmath>

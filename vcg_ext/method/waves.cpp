@@ -10,9 +10,9 @@ namespace vcg_ext {
 
 namespace {
 
-constexpr int all_rungs = 9; ///< each way from the usual strength: a factor of 22, so 5e-6 to 2e-3
+constexpr int rungs = 9; ///< each way from the usual strength: a factor of 22, so 5e-6 to 2e-3
 constexpr int most_ways = 4;
-const double log10_half = std::log10(0.5);
+constexpr double sure = -9; ///< log10 of presence: no need to look at what processing may have done
 
 /// A reading and what it says by the key alone; shared by who asks about expected bits later.
 struct Read {
@@ -43,21 +43,19 @@ MarkFrame find_waves(const Surface& surface, const Plan& /*plan*/)
 Readings read_by_waves(const Surface& /*surface*/, const Plan& plan, const MarkFrame& frame)
 {
     const WaveBody& body = std::get<WaveBody>(frame);
-    const auto read = [&](int rungs) {
+    // What is read at rest is a part of all the ways, with the same weights: to stop there is no choice to be paid for.
+    const auto read = [&](bool at_rest_only) {
         WaveReadOptions options;
         options.rungs = rungs;
+        options.at_rest_only = at_rest_only;
         auto result = std::make_shared<Read>();
         result->reading = read_waves(body, plan.waves, options);
         result->presence = wave_presence(result->reading);
         return result;
     };
-    std::shared_ptr<const Read> found = read(1);
-    const double sure = -7 * std::log(10.0);
-    if (found->presence.log_p > sure) {
-        std::shared_ptr<const Read> any = read(all_rungs);
-        if (any->presence.log_p < found->presence.log_p)
-            found = any;
-    }
+    std::shared_ptr<const Read> found = read(true);
+    if (log10_of(found->presence.log_p) > sure)
+        found = read(false);
     Readings readings;
     readings.in_log_likelihoods = true;
     for (WaveSoft& way : wave_ways(found->reading, found->presence, most_ways)) {
@@ -67,9 +65,9 @@ Readings read_by_waves(const Surface& /*surface*/, const Plan& plan, const MarkF
         reading.soft = std::move(way.soft);
         readings.ways.push_back(std::move(reading));
     }
-    readings.presence = std::min(0.0, log10_of(found->presence.log_p) - log10_half);
+    readings.presence = log10_of(found->presence.log_p);
     readings.match = [found](const Bits& coded) {
-        return std::min(0.0, log10_of(wave_match(found->reading, found->presence, coded).log_p) - log10_half);
+        return log10_of(wave_match(found->reading, found->presence, coded).log_p);
     };
     return readings;
 }

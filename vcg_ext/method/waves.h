@@ -13,8 +13,7 @@ namespace vcg_ext {
 [[nodiscard]] Plan plan_waves(const Key& key, const CarrierOptions& options);
 [[nodiscard]] MarkFrame find_waves(const Surface& surface, const Plan& plan);
 
-/// Half of the weight is for marks of about the usual strength; where there is none the other half tries the rungs of
-/// all strengths.
+/// Strengths from 5e-6 to 2e-3 are tried, those near the usual one with the most weight.
 [[nodiscard]] Readings read_by_waves(const Surface& surface, const Plan& plan, const MarkFrame& frame);
 [[nodiscard]] Marking embed_by_waves(const Cover& cover, const Plan& plan, const Bits& coded,
                                      const PlacementOptions& options, const Progress& progress);
