@@ -164,6 +164,7 @@ public:
         const std::vector<double> y = wave_phases(reading, start);
         for (std::size_t k = 0; k < y.size(); ++k) {
             sine_cosine(2 * pi * y[k], s_[k], c_[k]);
+            turn_c_[k] = 1;
             if (!along.empty())
                 sine_cosine(2 * pi * step * along[k], turn_s_[k], turn_c_[k]);
         }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wave_embedding.h"
 
+#include "../base/parallel.h"
 #include "../base/progress.h"
 #include "../geometry/turns.h"
 #include "../geometry/wave_sums.h"
-#include "../base/parallel.h"
 #include "../placement/fold_guard.h"
 #include "../placement/wave_field.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "../base/error.h"
 #include "../base/progress.h"
 #include "../carrier/waves.h"
-#include "../base/error.h"
 #include "../placement/cover.h"
 
 #include <functional>

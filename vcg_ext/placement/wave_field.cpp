@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wave_field.h"
 
+#include "../base/parallel.h"
 #include "../carrier/wave_flows.h"
 #include "../geometry/turns.h"
 #include "../geometry/wave_sums.h"
-#include "../base/parallel.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -170,7 +170,7 @@ void conclude(const DetectOptions& options, const Trial& trial, double log10_any
     result.verified = log10_any < sure;
     if (result.verified)
         result.message = show_message(judgement.best.bits, judgement.best.kind);
-    const auto chance = [](double log10_p) { return "p " + text(probability(log10_p)); };
+    const auto chance = [](double log10_p) { return "p 1e" + std::to_string(static_cast<int>(std::ceil(log10_p))); };
     if (asked) {
         const bool same = raw || !result.verified || trimmed(judgement.best.bits) == trimmed(expected->bits);
         result.p_value = probability(log10_expected);
