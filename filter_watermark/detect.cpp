@@ -2,6 +2,8 @@
 #include <vcg_ext/base/progress.h>
 #include <vcg_ext/carrier/statistic.h>
 
+#include <QFile>
+
 #include "layer.h"
 #include "report.h"
 #include "shared_parameters.h"
@@ -9,23 +11,37 @@
 namespace {
 
 constexpr const char* info =
-    "Reads the message that <b>Watermark: Embed</b> hid in the mesh, with the key alone. Every mesh gives some bits: "
-    "whether they "
-    "are a mark is told by <b>Expected</b>. With the message that should be there, <i>p_value</i> is the exact "
-    "probability that an "
-    "unmarked mesh, or another key, matches at least as well by chance; the mark counts as present below 1e-6.<br>"
-    "Method, Statistic, Bits and Trim must be those of embedding. The mesh stays as it is; <b>ShowCarriers</b> gives "
-    "its vertices "
-    "the number of the bit that they carry as quality, and a colour for each.";
+    "Reads the message that <b>Watermark: Embed</b> hid in the mesh, with the key alone. The last line of the log is the "
+    "verdict: the message that is there, another one than expected, a mark of another key or setting, or none. "
+    "<i>p_value</i> (with <b>Expected message</b>) and <i>p_message</i> (without) are true upper bounds of the "
+    "probability that an unmarked mesh, or another key, reads as well by chance; below 1e-6 a mark counts as found.<br>"
+    "Method, Statistic and Trim must be those of embedding; Bits too, unless it is 0. The mesh stays as it is; <b>Show "
+    "carriers</b> gives its vertices the number of the carrier that they are in as quality, and a colour for each.";
+
+/// The messages of a file, one a line, or the one that the text says; none where it is empty.
+std::vector<vcg_ext::Message> read_expected(const RichParameterList& values)
+{
+    const std::string text = read_text(values, "Expected");
+    if (text.empty())
+        return {};
+    if (text.compare(0, 5, "file:") != 0)
+        return {vcg_ext::read_message(text)};
+    QFile file(values.getString("Expected").mid(5));
+    if (!file.open(QIODevice::ReadOnly))
+        throw vcg_ext::Error("The file of expected messages cannot be read: '" + file.fileName().toStdString() +
+                             "'. Name one that exists, with a message on each line.");
+    return vcg_ext::read_candidates(composed(QString::fromUtf8(file.readAll())));
+}
 
 RichParameterList parameters(const MeshDocument&)
 {
     RichParameterList list;
-    add_carrier_parameters(list, "Number of carriers that the mark was embedded with, 1 to 1024.");
-    list.addParam(RichString(
-        "Expected", "", "Expected message",
-        "The message to look for: plain text, <i>hex:C0FFEE</i> or <i>bits:0110</i>; or empty, to only read."));
-    list.addParam(RichBool("ShowCarriers", false, "Show carriers", "Colours the vertices by the bit that they carry."));
+    add_carrier_parameters(list, "Number of carriers that the mark was embedded with, 1 to 1024; 0 finds it.");
+    list.addParam(
+        RichString("Expected", "", "Expected message",
+                   "The message to look for, as in Embed; <i>file:PATH</i>: one of its lines; or empty, to read."));
+    list.addParam(
+        RichBool("ShowCarriers", false, "Show carriers", "Colours the vertices by the carrier that they are in."));
     add_report_parameter(list);
     return list;
 }
@@ -35,9 +51,7 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
     MeshModel& layer = current_layer_or_error(document);
     vcg_ext::DetectOptions options;
     options.carriers = read_carrier_options(values);
-    const std::string expected = values.getString("Expected").toStdString();
-    if (!expected.empty())
-        options.expected = vcg_ext::parse_message(expected);
+    options.expected = read_expected(values);
     const vcg_ext::Key key = read_key(values);
     ReportFile file(values.getSaveFileName("Report"));
 

@@ -9,34 +9,29 @@
 namespace {
 
 constexpr const char* info =
-    "Hides a message in the vertex positions of the mesh, so that it cannot be seen. <b>Watermark: Detect</b> reads it "
-    "back with "
-    "the key alone, without the original, also after moderate noise, smoothing, simplification, quantization, and any "
-    "rotation, "
-    "translation or uniform scale.<br>"
+    "Hides a message in the shape of the mesh, so that it cannot be seen. <b>Watermark: Detect</b> reads it back with "
+    "the key alone, without the original, also after noise, smoothing, simplification, remeshing, quantization, and any "
+    "rotation, translation or uniform scale.<br>"
     "The whole mesh carries the mark: a selection is ignored, and kept. Only positions change (and normals with them). "
-    "Vertices "
-    "at one position move together, so seams stay closed. The filter ends with a blind detection of its own and fails, "
-    "with the "
-    "mesh unchanged, where a bit would not read back.<br>"
-    "Keep the key secret, and note Method, Statistic, Bits and Trim: detection needs the same.<br>"
+    "Vertices at one position move together, so seams stay closed. The filter ends with a blind detection of its own and "
+    "fails, with the mesh unchanged, where a bit would not read back.<br>"
+    "Keep the key secret, and note the recipe that the log ends with: detection needs the same settings.<br>"
     "See:<br><i>Ming Luo, Adrian G. Bors</i><br><b>\"Surface-preserving robust watermarking of 3-D shapes\"</b><br>"
     "IEEE Transactions on Image Processing 20(10), 2011<br>"
     "<i>Jae-Won Cho, R&eacute;my Prost, Ho-Youl Jung</i><br><b>\"An oblivious watermarking for 3-D polygonal meshes "
-    "using "
-    "distribution of vertex norms\"</b><br>IEEE Transactions on Signal Processing 55(1), 2007";
+    "using distribution of vertex norms\"</b><br>IEEE Transactions on Signal Processing 55(1), 2007";
 
 RichParameterList parameters(const MeshDocument&)
 {
     RichParameterList list;
-    list.addParam(RichString(
-        "Message", "", "Message",
-        "Plain text, or <i>hex:C0FFEE</i>, or <i>bits:0110</i>. It must fit into Bits; what is left is zero."));
-    add_carrier_parameters(
-        list, "Number of carriers, one for each bit, 1 to 1024; 0 takes the message's length. Fewer are more robust.");
+    list.addParam(
+        RichString("Message", "", "Message",
+                   "Plain text, <i>id:17</i> (a number), <i>hex:C0FFEE</i>, or <i>bits:0110</i> (raw, not coded)."));
+    add_carrier_parameters(list, "Number of carriers, 1 to 1024; 0 takes what the message needs to last.");
     list.addParam(
         RichFloat("Strength", 0, "Strength",
-                  "Stronger marks survive more and show more. 0 is the method's default: 0.1, and 15 for Spectral."));
+                  "0 is the method's default. Layered, Waves: RMS move over the diagonal, 1e-4; L-M, QSP, Cho, "
+                  "Geodesic: 0.1; Spectral: 15. More survives more and shows more."));
     add_report_parameter(list);
     return list;
 }
@@ -51,7 +46,7 @@ vcg_ext::EmbedReport embed_or_advise(vcg_ext::Surface& surface, const vcg_ext::K
         const int fits = carriers_that_fit(surface, key, options, cause, progress);
         const std::string advice =
             fits > 0 ? " This mesh carries " + std::to_string(fits) +
-                           " bits with this method and key: set Bits to that, shorten the message, or use a finer mesh."
+                           " bits with this method and key: set Bits to that, or use a finer mesh."
                      : std::string(" Fewer bits did not fit either: use another method, or a finer mesh.");
         throw vcg_ext::Error(cause.what() + advice);
     }
@@ -62,7 +57,7 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
     MeshModel& layer = current_layer_or_error(document);
     vcg_ext::EmbedOptions options;
     options.carriers = read_carrier_options(values);
-    options.message = vcg_ext::parse_message(values.getString("Message").toStdString());
+    options.message = vcg_ext::read_message(read_text(values, "Message"));
     options.placement.strength = read_number(values, "Strength");
     options.placement.storage = sizeof(Scalarm) == sizeof(float) ? vcg_ext::Storage::Float : vcg_ext::Storage::Double;
     const vcg_ext::Key key = read_key(values);

@@ -6,15 +6,39 @@
 
 #include <algorithm>
 
+namespace {
+
+Json names_of(const std::vector<vcg_ext::Method>& methods)
+{
+    Json names = Json::array();
+    for (const vcg_ext::Method method : methods)
+        names.push_back(name(method));
+    return names;
+}
+
+Json to_json(const vcg_ext::LayerReport& layer)
+{
+    Json json = {{"method", name(layer.method)}, {"p_message", layer.p_message}};
+    if (layer.p_value)
+        json["p_value"] = *layer.p_value;
+    if (layer.presence)
+        json["presence"] = *layer.presence;
+    return json;
+}
+
+} // namespace
+
 Json to_json(const vcg_ext::EmbedReport& report)
 {
     Json json = {
         {"method", name(report.method)},
         {"statistic", name(report.statistic)},
+        {"message", report.message},
         {"bits", vcg_ext::bit_string(report.bits)},
         {"strength", report.strength},
         {"trim", report.trim},
         {"carriers", report.carriers},
+        {"layers", names_of(report.layers)},
         {"samples_min", report.samples_min},
         {"capacity", report.capacity},
         {"detection_ratio", report.detection_ratio},
@@ -39,33 +63,42 @@ Json to_json(const vcg_ext::EmbedReport& report)
                          {"unconverged", report.moves->unconverged}};
     json["version"] = VCG_EXT_VERSION;
     json["warnings"] = report.warnings;
+    json["recipe"] = report.recipe;
     return json;
 }
 
 Json to_json(const vcg_ext::DetectReport& report)
 {
     Json json = {
-        {"method", name(report.method)},
-        {"statistic", name(report.statistic)},
-        {"bits", vcg_ext::bit_string(report.bits)},
-        {"message", vcg_ext::format_message(report.bits)},
-        {"trim", report.trim},
-        {"soft", report.soft},
-        {"samples", report.samples},
+        {"method", name(report.method)}, {"statistic", name(report.statistic)},
+        {"carriers", report.carriers},   {"bits", vcg_ext::bit_string(report.bits)},
+        {"message", report.message},     {"trim", report.trim},
+        {"soft", report.soft},           {"samples", report.samples},
     };
-    if (report.detection_ratio)
-        json["detection_ratio"] = *report.detection_ratio;
-    if (report.p_value)
-        json["p_value"] = *report.p_value;
-    if (report.present)
-        json["present"] = *report.present;
-    if (report.smoothing_rounds)
-        json["smoothing_rounds"] = *report.smoothing_rounds;
+    const auto add = [&json](const char* field, const auto& value) {
+        if (value)
+            json[field] = *value;
+    };
+    add("detection_ratio", report.detection_ratio);
+    add("p_value", report.p_value);
+    add("p_binomial", report.p_binomial);
+    add("present", report.present);
+    json["p_message"] = report.p_message;
+    json["verified"] = report.verified;
+    add("presence", report.presence);
+    add("candidate", report.candidate);
+    add("runner_up_p", report.runner_up_p);
+    add("smoothing_rounds", report.smoothing_rounds);
     if (!report.orientation.empty())
         json["orientation"] = report.orientation;
+    json["layers"] = Json::array();
+    for (const vcg_ext::LayerReport& layer : report.layers)
+        json["layers"].push_back(to_json(layer));
     json["seconds"] = report.seconds;
     json["version"] = VCG_EXT_VERSION;
     json["warnings"] = report.warnings;
+    json["finding"] = int(report.finding);
+    json["verdict"] = report.verdict;
     return json;
 }
 
@@ -127,6 +160,8 @@ std::map<std::string, HostValue> to_values(const Json& results)
                 values[std::string(name).append("_").append(part)] = number.get<double>();
         } else if (name == "warnings") {
             values[name] = int(value.size());
+        } else if (name == "finding") {
+            values["verdict"] = value.get<int>();
         } else if (name == "bits") {
             std::vector<double> bits;
             for (const char digit : value.get_ref<const std::string&>())
@@ -149,8 +184,8 @@ QStringList to_lines(const Json& results)
 {
     QStringList lines;
     for (const auto& [name, value] : results.items()) {
-        if (name == "warnings")
-            continue;
+        if (name == "warnings" || name == "finding")
+            continue; // these are told otherwise
         if (value.is_object()) {
             for (const auto& [part, number] : value.items())
                 lines += QString("%1 %2: %3").arg(name.c_str(), part.c_str(), to_line(number));

@@ -39,12 +39,19 @@ std::uint64_t read_seed(const RichParameterList& values)
     return std::uint64_t(seed);
 }
 
+/// What each method is for.
+static QString method_hints()
+{
+    QString hints;
+    for (const vcg_ext::MethodRow& row : vcg_ext::all_methods())
+        hints += QString("<br><i>%1</i>: %2.").arg(row.name, row.hint);
+    return hints;
+}
+
 void add_carrier_parameters(RichParameterList& list, const QString& bits_tip)
 {
     list.addParam(
-        RichEnum("Method", 0, choice_names(methods()), "Method",
-                 "L-M: vertex norms, the least visible; QSP and Cho: vertex norms, faster and more visible; Geodesic: "
-                 "distances along the surface; Spectral: survives smoothing. Detection needs the same one."));
+        RichEnum("Method", 0, choice_names(methods()), "Method", "Detection needs the same one. " + method_hints()));
     list.addParam(
         RichEnum("Statistic", 0, choice_names(statistics), "Statistic",
                  "What a carrier's values tell: their mean, or their variance (less visible, less robust). Detection "
@@ -53,7 +60,7 @@ void add_carrier_parameters(RichParameterList& list, const QString& bits_tip)
         RichString("Key", "", "Secret key",
                    "A passphrase, or <i>file:PATH</i> for a file's bytes, or <i>env:NAME</i> for an environment "
                    "variable. The last two keep it out of scripts, histories and project files."));
-    list.addParam(RichInt("Bits", 64, "Bits", bits_tip));
+    list.addParam(RichInt("Bits", 0, "Bits", bits_tip));
     list.addParam(RichFloat(
         "Trim", -1, "Trim",
         "Part of the values' range that is cut off at both ends, 0 to 0.45; -1 draws it from the key. Detection "
@@ -70,12 +77,22 @@ vcg_ext::CarrierOptions read_carrier_options(const RichParameterList& values)
     return options;
 }
 
+std::string composed(const QString& text)
+{
+    return text.normalized(QString::NormalizationForm_C).toStdString();
+}
+
+std::string read_text(const RichParameterList& values, const QString& name)
+{
+    return composed(values.getString(name));
+}
+
 vcg_ext::Key read_key(const RichParameterList& values)
 {
     struct Text {
         QByteArray bytes;
         ~Text() { bytes.fill('\0'); }
-    } text{values.getString("Key").toUtf8()};
+    } text{values.getString("Key").normalized(QString::NormalizationForm_C).toUtf8()};
     return vcg_ext::key_from_text({text.bytes.constData(), std::size_t(text.bytes.size())});
 }
 

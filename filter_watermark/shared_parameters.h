@@ -30,6 +30,10 @@ std::uint64_t read_seed(const RichParameterList& values);
 void add_carrier_parameters(RichParameterList& list, const QString& bits_tip);
 vcg_ext::CarrierOptions read_carrier_options(const RichParameterList& values);
 
+/// The text as UTF-8 in Unicode's composed form (NFC): one letter can be spelled in several ways.
+std::string composed(const QString& text);
+std::string read_text(const RichParameterList& values, const QString& name);
+
 /// \throw vcg_ext::Error where it is empty, or names no file or variable
 vcg_ext::Key read_key(const RichParameterList& values);
 

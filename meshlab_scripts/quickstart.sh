@@ -23,7 +23,7 @@ sed -nE 's/^LOG: 2 (mrms_relative): (.*)/MRMS over the diagonal: \2/p' meshlabse
 
 echo "== meshlabserver: detect from the file, with the key alone"
 meshlabserver -i "$PWD/marked.ply" -s "$root/meshlab_scripts/detect.mlx"
-sed -nE 's/^LOG: 2 ((message|p_value|present): )/\1/p' meshlabserver.log
+sed -nE 's/^LOG: 2 ((message|p_value|verdict): )/\1/p' meshlabserver.log
 
 echo
 echo "== pymeshlab: the same in Python (meshlab_scripts/quickstart.py)"

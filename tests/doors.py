@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[1]
 BUILD = ROOT / "build"
 MESHES = BUILD / "data" / "meshes"
 
-METHODS = ["L-M", "QSP", "Cho", "Geodesic", "Spectral"]
+METHODS = ["Layered", "Waves", "L-M", "QSP", "Cho", "Geodesic", "Spectral"]
 STATISTICS = ["Mean", "Variance"]
 
 EMBED = "Watermark: Embed"
@@ -28,10 +28,10 @@ Value = str | int | float | bool
 Report = dict[str, object]
 
 CARRIERS: dict[str, tuple[str, Value]] = {
-    "Method": ("RichEnum", "L-M"),
+    "Method": ("RichEnum", "Layered"),
     "Statistic": ("RichEnum", "Mean"),
     "Key": ("RichString", ""),
-    "Bits": ("RichInt", 64),
+    "Bits": ("RichInt", 0),
     "Trim": ("RichFloat", -1),
 }
 # Filter -> name in pymeshlab, and its parameters: name -> type in .mlx and default, in the filter's order.

@@ -82,7 +82,7 @@ def _carriers(job: Job) -> dict[str, Value]:
 
 def _read(meshes: pymeshlab.MeshSet, job: Job) -> Numbers:
     found = plugin.detect(meshes, expected=job.message, **_carriers(job))
-    return {name: found[name] for name in ("detection_ratio", "p_value")}
+    return {"detection_ratio": found["detection_ratio"], "p_value": found["p_binomial"]}
 
 
 def _attack(meshes: pymeshlab.MeshSet, job: Job) -> Numbers:

@@ -59,7 +59,7 @@ int main(int count, char** arguments)
 {
     const int number_of_keys = count > 1 ? std::atoi(arguments[1]) : 900;
     constexpr std::array<const char*, 5> names = {"cow.off", "femur.off", "bones.off", "blobby.off", "triceratops.off"};
-    const Bits message = parse_message("hex:0123456789abcdef");
+    const Message message = read_message("hex:0123456789abcdef");
     std::vector<Key> keys;
     for (int i = 0; i < number_of_keys; ++i)
         keys.emplace_back("false alarm " + std::to_string(i));
@@ -94,7 +94,7 @@ int main(int count, char** arguments)
                         DetectOptions options;
                         options.carriers.method = method;
                         options.carriers.statistic = statistic;
-                        options.expected = message;
+                        options.expected = {message};
                         try {
                             const DetectReport found = detect(surface, keys[k], options);
                             ++tally.detections;

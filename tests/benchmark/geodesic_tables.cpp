@@ -52,7 +52,7 @@ EmbedOptions options_for(Method method, Statistic statistic, int bits, int key)
     options.carriers.trim = 0.1;
     Stream draws = key_number(key).stream("message");
     for (int i = 0; i < bits; ++i)
-        options.message.push_back(static_cast<std::uint8_t>(draws.below(2)));
+        options.message.bits.push_back(static_cast<std::uint8_t>(draws.below(2)));
     return options;
 }
 
@@ -60,7 +60,7 @@ DetectReport read(const Surface& surface, const EmbedOptions& embedded, int key)
 {
     DetectOptions options;
     options.carriers = embedded.carriers;
-    options.expected = embedded.message;
+    options.expected = {embedded.message};
     return detect(surface, key_number(key), options);
 }
 

@@ -89,7 +89,7 @@ std::pair<Outcome, std::string> try_to_mark(const Surface& cover, const Key& key
         const EmbedReport report = embed(stego, key, options);
         DetectOptions reading;
         reading.carriers = options.carriers;
-        reading.expected = report.bits;
+        reading.expected = {options.message};
         if (!std::all_of(stego.points.begin(), stego.points.end(), [](const Point& p) { return p.allFinite(); }))
             return {wrong, "coordinates that are not finite"};
         if (detect(stego, key, reading).bits != report.bits)
@@ -111,10 +111,11 @@ std::pair<Outcome, std::string> run(const Surface& cover, const Key& key, const 
     EmbedOptions options;
     options.carriers.method = job.method;
     options.carriers.statistic = job.statistic;
-    options.message = parse_message("hex:0123456789abcdef");
+    options.message = read_message("hex:0123456789abcdef");
+    options.message.kind = Kind::Bits;
     DetectOptions reading;
     reading.carriers = options.carriers;
-    reading.expected = options.message;
+    reading.expected = {options.message};
     try {
         if (*detect(cover, key, reading).present)
             return {wrong, "a mark was found in the unmarked mesh"};
@@ -125,7 +126,7 @@ std::pair<Outcome, std::string> run(const Surface& cover, const Key& key, const 
     auto result = try_to_mark(cover, key, options, &carries);
     if (result.first == refused && carries > 0) {
         options.carriers.bits = carries;
-        options.message.resize(carries);
+        options.message.bits.resize(carries);
         const auto [outcome, text] = try_to_mark(cover, key, options);
         if (outcome != marked)
             return {wrong, "the number named does not work: " + result.second + " / " + text};

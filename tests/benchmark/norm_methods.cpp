@@ -20,7 +20,7 @@ EmbedReport mark(const Surface& cover, const Key& key, Statistic statistic, Embe
 {
     Surface stego = cover;
     options.carriers.statistic = statistic;
-    options.message = parse_message("hex:0123456789abcdef");
+    options.message = read_message("hex:0123456789abcdef");
     options.carriers.trim = 0.1;
     return embed(stego, key, options);
 }

@@ -29,8 +29,9 @@ int main()
                         options.carriers.method = method;
                         options.carriers.statistic = statistic;
                         options.carriers.bits = bits;
-                        options.message = parse_message("hex:0123456789abcdef");
-                        options.message.resize(bits, 1);
+                        options.message = read_message("hex:0123456789abcdef");
+                        options.message.kind = Kind::Bits;
+                        options.message.bits.resize(bits, 1);
                         Surface stego = cover;
                         try {
                             const EmbedReport report = embed(stego, key, options);

@@ -65,7 +65,7 @@ std::vector<std::array<double, methods.size()>> ratios(const Surface& cover, Sta
         embedding.carriers.method = methods[m];
         embedding.carriers.statistic = statistic;
         embedding.carriers.bits = carriers;
-        embedding.message = message;
+        embedding.message = {Kind::Bits, message, {}};
         embedding.carriers.trim = 0.1;
         Surface stego = cover;
         embed(stego, key, embedding);

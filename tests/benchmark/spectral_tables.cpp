@@ -32,7 +32,7 @@ EmbedOptions options_of(Method method, Statistic statistic, double strength)
     EmbedOptions options;
     options.carriers.method = method;
     options.carriers.statistic = statistic;
-    options.message = parse_message("hex:0123456789abcdef");
+    options.message = read_message("hex:0123456789abcdef");
     options.placement.strength = strength;
     options.carriers.trim = 0.1; // as in the thesis' tables
     return options;
@@ -42,7 +42,7 @@ double ratio_after(const Surface& surface, const Key& key, const EmbedOptions& e
 {
     DetectOptions options;
     options.carriers = embedded.carriers;
-    options.expected = embedded.message;
+    options.expected = {embedded.message};
     return *detect(surface, key, options).detection_ratio;
 }
 

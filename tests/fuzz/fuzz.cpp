@@ -155,10 +155,10 @@ void embed_and_detect(const Surface& before, const Key& key, Stream& draws)
     options.placement.strength = strengths[pick(draws, std::size(strengths))];
     options.placement.storage = static_cast<Storage>(pick(draws, 2));
     options.placement.max_rounds = 3;
-    options.message = {1, 0, 1, 1, 0, 0, 1, 0};
+    options.message = read_message("bits:10110010");
     DetectOptions reading;
     reading.carriers = options.carriers;
-    reading.expected = options.message;
+    reading.expected = {options.message};
     Surface after = before;
     try {
         const EmbedReport report = embed(after, key, options);

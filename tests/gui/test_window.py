@@ -139,7 +139,7 @@ def test_embed_and_detect_by_hand(window: Window, tmp_path: Path) -> None:
     wait_for("the log", lambda: "detection_ratio: 1" in window.log())
     window.picture("embedded")
     embedded = json.loads(report.read_text())
-    assert embedded["method"] == "L-M"
+    assert embedded["method"] == "Layered"
     assert embedded["moved_vertices"] > 1000
     assert KEY not in window.log()
     window.close_dialog(EMBED)

@@ -239,10 +239,10 @@ TEST_P(BadInput, EmbedAndDetectAnswerOrRefuse)
             options.carriers.method = row.method;
             options.carriers.statistic = statistic;
             options.carriers.bits = 16;
-            options.message = parse_message("hex:B51C");
+            options.message = read_message("bits:1011010100011100");
             DetectOptions reading;
             reading.carriers = options.carriers;
-            reading.expected = options.message;
+            reading.expected = {options.message};
             const auto mark = [&](EmbedOptions wanted) {
                 Surface stego = cover;
                 try {
@@ -251,7 +251,7 @@ TEST_P(BadInput, EmbedAndDetectAnswerOrRefuse)
                     EXPECT_EQ(report.detection_ratio, 1);
                     EXPECT_TRUE(std::isfinite(report.mrms) && std::isfinite(report.mrms_relative));
                     reading.carriers.bits = wanted.carriers.bits;
-                    reading.expected = wanted.message;
+                    reading.expected = {wanted.message};
                     EXPECT_EQ(detect(stego, test_key(), reading).detection_ratio, 1);
                     return -1;
                 } catch (const DoesNotFit& cause) {
@@ -277,7 +277,7 @@ TEST_P(BadInput, EmbedAndDetectAnswerOrRefuse)
             const int carries = mark(options);
             if (carries > 0) {
                 options.carriers.bits = carries;
-                options.message.resize(carries);
+                options.message.bits.resize(carries);
                 EXPECT_EQ(mark(options), -1) << "refuses the number that it named, " << carries;
             }
         }

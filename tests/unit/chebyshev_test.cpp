@@ -125,7 +125,7 @@ TEST(Chebyshev, MarkedPatchesHaveTheShapesOfTheExactProjector)
     EmbedOptions options;
     options.carriers.method = Method::Spectral;
     options.carriers.bits = 16;
-    options.message = parse_message("hex:C0DE");
+    options.message = read_message("hex:C0DE");
     (void)embed(marked, key, options);
 
     const PatchReading read = read_patches(marked, plan_spectral(key, options.carriers), principal_frame(marked));

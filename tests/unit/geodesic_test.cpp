@@ -27,7 +27,7 @@ EmbedOptions options_for(Statistic statistic, int bits)
     options.carriers.statistic = statistic;
     options.carriers.bits = bits;
     options.carriers.trim = 0.1;
-    options.message = parse_message("hex:c0ffee");
+    options.message = read_message("hex:c0ffee");
     return options;
 }
 
@@ -35,7 +35,7 @@ DetectReport read(const Surface& surface, const EmbedOptions& embedded)
 {
     DetectOptions options;
     options.carriers = embedded.carriers;
-    options.expected = embedded.message;
+    options.expected = {embedded.message};
     return detect(surface, test_key(), options);
 }
 

@@ -38,7 +38,7 @@ DetectOptions options_of(const nlohmann::json& mark)
     options.carriers.method = named(settings.at("Method"), all_the_methods());
     options.carriers.statistic = named(settings.at("Statistic"), std::vector{Statistic::Mean, Statistic::Variance});
     options.carriers.bits = settings.at("Bits");
-    options.expected = parse_message(mark.at("message").get<std::string>());
+    options.expected = {read_message(mark.at("message").get<std::string>())};
     return options;
 }
 

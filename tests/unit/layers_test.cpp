@@ -18,7 +18,7 @@ protected:
     {
         EmbedOptions options;
         options.carriers.method = GetParam();
-        options.message = parse_message(message);
+        options.message = read_message(message);
         return options;
     }
 };
@@ -27,7 +27,7 @@ double ratio(const Surface& surface, const Key& key, const EmbedOptions& embedde
 {
     DetectOptions options;
     options.carriers = embedded.carriers;
-    options.expected = embedded.message;
+    options.expected = {embedded.message};
     return *detect(surface, key, options).detection_ratio;
 }
 

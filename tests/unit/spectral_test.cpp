@@ -18,9 +18,9 @@ EmbedOptions spectral(int bits)
     EmbedOptions options;
     options.carriers.method = Method::Spectral;
     options.carriers.bits = bits;
-    options.message = Bits(bits, 0);
+    options.message = {Kind::Bits, Bits(bits, 0), {}};
     for (int i = 0; i < bits; ++i)
-        options.message[i] = static_cast<std::uint8_t>(i * i / 3 % 2);
+        options.message.bits[i] = static_cast<std::uint8_t>(i * i / 3 % 2);
     return options;
 }
 
@@ -63,10 +63,10 @@ TEST(Spectral, IsReadBackAfterSimilarityAndRenumbering)
         const EmbedReport embedded = embed(marked, key, options);
         EXPECT_EQ(embedded.detection_ratio, 1);
         EXPECT_EQ(embedded.warnings.size(), 0u);
-        EXPECT_EQ(detect(marked, key, reading_of(options)).bits, options.message);
+        EXPECT_EQ(detect(marked, key, reading_of(options)).bits, options.message.bits);
         attack(marked, Attack::Similarity, 3);
         attack(marked, Attack::Reorder, 4);
-        EXPECT_EQ(detect(marked, key, reading_of(options)).bits, options.message);
+        EXPECT_EQ(detect(marked, key, reading_of(options)).bits, options.message.bits);
     }
 }
 
@@ -116,10 +116,10 @@ TEST(Spectral, ASymmetricBodyIsReadWhicheverWayItLies)
         for (Point& p : noisy.points)
             p += Point((i & 1) ? 3e-5 : -3e-5, (i & 2) ? 3e-5 : -3e-5, 0).cwiseProduct(p).cwiseProduct(p);
         const DetectReport blind = detect(noisy, key, reading);
-        EXPECT_EQ(blind.bits, options.message) << i;
-        reading.expected = options.message;
+        EXPECT_EQ(blind.bits, options.message.bits) << i;
+        reading.expected = {options.message};
         EXPECT_EQ(*detect(noisy, key, reading).detection_ratio, 1) << i;
-        reading.expected.reset();
+        reading.expected.clear();
         seen.push_back(blind.orientation);
     }
     std::sort(seen.begin(), seen.end());
@@ -132,7 +132,7 @@ TEST(Spectral, TheChanceOfAWrongKeyIsFourTails)
     Surface marked = load("fandisk.off");
     (void)embed(marked, Key("right"), options);
     DetectOptions reading = reading_of(options);
-    reading.expected = options.message;
+    reading.expected = {options.message};
     const DetectReport right = detect(marked, Key("right"), reading);
     EXPECT_DOUBLE_EQ(*right.p_value, 4 * binomial_tail(64, 64));
     EXPECT_EQ(right.orientation, "++");
@@ -140,7 +140,7 @@ TEST(Spectral, TheChanceOfAWrongKeyIsFourTails)
     const int keys = 20;
     for (int i = 0; i < keys; ++i) {
         const DetectReport wrong = detect(marked, Key("wrong " + std::to_string(i)), reading);
-        const int matches = matching_bits(options.message, wrong.bits);
+        const int matches = matching_bits(options.message.bits, wrong.bits);
         EXPECT_DOUBLE_EQ(*wrong.p_value, std::min(1.0, 4 * binomial_tail(64, matches)));
         below += *wrong.p_value < 0.1;
     }
@@ -154,7 +154,7 @@ TEST(Spectral, AsPrintedIsReadBack)
     Surface marked = load("fandisk.off");
     const Key key("printed");
     EXPECT_EQ(embed(marked, key, options).detection_ratio, 1);
-    EXPECT_EQ(detect(marked, key, reading_of(options)).bits, options.message);
+    EXPECT_EQ(detect(marked, key, reading_of(options)).bits, options.message.bits);
 }
 
 TEST(Spectral, RefusesWhatItCannotDo)

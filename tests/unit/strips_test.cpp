@@ -127,7 +127,7 @@ int rounds_of(const Surface& cover, const Spoil& spoil)
 {
     EmbedOptions options;
     options.carriers.method = Method::Geodesic;
-    options.message = {1, 0, 1, 1};
+    options.message = read_message("bits:1011");
     options.carriers.bits = 32;
     Surface surface = cover;
     embed(surface, test_key(), options);

@@ -31,7 +31,7 @@ EmbedOptions options_for(Method method, Statistic statistic)
     EmbedOptions options;
     options.carriers.method = method;
     options.carriers.statistic = statistic;
-    options.message = parse_message("museum");
+    options.message = read_message("museum");
     return options;
 }
 
@@ -39,7 +39,7 @@ DetectReport read(const Surface& surface, const EmbedOptions& embedded, const Ke
 {
     DetectOptions options;
     options.carriers = embedded.carriers;
-    options.expected = embedded.message;
+    options.expected = {embedded.message};
     return detect(surface, key, options);
 }
 
@@ -314,7 +314,7 @@ TEST(Embed, NamesACapacityAtWhichNoCarrierIsEmpty)
         for (const char* mesh : {"fandisk.off", "bunny00.off"}) {
             EmbedOptions options = options_for(method, Statistic::Mean);
             options.carriers.bits = 16;
-            options.message = parse_message("bits:1");
+            options.message = read_message("bits:1");
             options.carriers.trim = 0.1;
             const Surface cover = load(mesh);
             Surface stego = cover;

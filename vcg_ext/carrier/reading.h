@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "../payload/message.h"
+
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +28,13 @@ struct Readings {
     std::vector<Reading> ways;        ///< at least one
     int blind = 0;                    ///< the way that the carriers themselves speak for: chosen without the mask
     std::vector<int> label_of_vertex; ///< -1: none; empty where a carrier is no set of vertices
+    bool in_log_likelihoods = false;  ///< whether soft values are log-likelihood ratios; else they are standard errors
+    /// log10 of a true bound of the probability that any mesh without a mark of this key looks like this, where the
+    /// carriers can tell without their bits.
+    std::optional<double> presence;
+    /// log10 of a true bound for coded bits that are expected, where the method knows a better one than the ways' signs
+    /// give; may be empty.
+    std::function<double(const Bits& coded)> match;
     std::optional<int> smoothing_rounds;
     std::vector<std::string> warnings;
 };

@@ -92,11 +92,12 @@ constexpr double most_undone = 8; ///< lambda k: 16 rounds of one half
 
 /// lambda k at which smoothing is undone. Phases between are interpolated, within each run of four gaps by itself:
 /// where the mesh is rough, the series runs away soon, and must not spoil what lies before.
-constexpr std::array<double, 13> nodes = {0, 0.375, 0.75, 1.125, 1.5, 2.125, 2.75, 3.375, 4, 5, 6, 7, 8};
+constexpr std::array<double, 17> nodes = {0, 0.375, 0.75, 1.125, 1.5,   2,    2.5,   3, 3.5,
+                                          4, 4.5,   5,    5.5,   6.125, 6.75, 7.375, 8};
 constexpr int gaps = 4;
 
 /// Area that a surface may reach, over what it is: undoing more smoothing than there was crumples it, at some length.
-constexpr double most_area = 1.5;
+constexpr double most_area = 3;
 
 double area_of(const WaveBody& body, const Points& points)
 {
@@ -163,6 +164,7 @@ public:
         const std::vector<double> y = wave_phases(reading, start);
         for (std::size_t k = 0; k < y.size(); ++k) {
             sine_cosine(2 * pi * y[k], s_[k], c_[k]);
+            turn_c_[k] = 1;
             if (!along.empty())
                 sine_cosine(2 * pi * step * along[k], turn_s_[k], turn_c_[k]);
         }

@@ -89,7 +89,7 @@ struct WaveReadOptions {
     int orientations = 4;   ///< 1: only as the third moments say
     bool mirrored = true;   ///< mirror images too
     /// Only the body as it is, without what processing does to it: the weights are the same, so p is as true, and no
-    /// lower. Three quarters of the time less, so try it first; a fifth of that for large meshes.
+    /// lower. Some six times as fast, so worth a try first.
     bool at_rest_only = false;
 };
 

@@ -13,9 +13,9 @@ constexpr double most_trim = 0.45;
 
 void CarrierOptions::check() const
 {
-    if (bits < 1 || bits > most_carriers)
+    if (bits < 0 || bits > most_carriers)
         throw Error("Bits is " + std::to_string(bits) + ", but must lie between 1 and " +
-                    std::to_string(most_carriers) + ".");
+                    std::to_string(most_carriers) + ", or be 0 to be found.");
     if (!(trim == -1 || (trim >= 0 && trim <= most_trim)))
         throw Error("Trim is " + text(trim) + ", but must lie between 0 and " + text(most_trim) +
                     ", or be -1 to be drawn from the key.");

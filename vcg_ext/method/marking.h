@@ -18,9 +18,9 @@ constexpr int most_carriers = 1024;
 
 /// What embedding and detection must agree on, besides the key.
 struct CarrierOptions {
-    Method method = Method::LM;
+    Method method = Method::Layered;
     Statistic statistic = Statistic::Mean; ///< Spectral ignores it
-    int bits = 64;                         ///< number of carriers, 1 to 1024
+    int bits = 0; ///< number of carriers, 1 to 1024; 0: embedding takes what the message needs, detection looks for it
     /// eps of (5.2), Spectral: alpha_trim of (3.6): part of the range cut off at both ends, 0 to 0.45; -1: drawn from
     /// the key.
     double trim = -1;
@@ -37,8 +37,9 @@ enum class Storage { Float, Double };
 
 /// How a mark is put in; detection does not depend on it.
 struct PlacementOptions {
-    /// alpha, in (0, 0.45] for Mean and (0, 0.3] for Variance; for Spectral K, above 2 and up to 1000; 0: the method's
-    /// default, 0.1 and 15.
+    /// Waves and Layered: MRMS over the diagonal that is to be expected, 2e-5 to 2e-3. Vertex norms and Geodesic:
+    /// alpha, in (0, 0.45] for Mean and (0, 0.3] for Variance; for Spectral K, above 2 and up to 1000.
+    /// 0: the method's default, 1e-4, 0.1 and 15.
     double strength = 0;
     Storage storage = Storage::Float; ///< where it is Double, the mark is still checked after rounding to float
     int max_rounds = 10;              ///< rounds of correction before embedding gives up, at least 1

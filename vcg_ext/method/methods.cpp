@@ -5,6 +5,7 @@
 #include "geodesic.h"
 #include "norms.h"
 #include "spectral.h"
+#include "waves.h"
 
 namespace vcg_ext {
 
@@ -13,6 +14,11 @@ namespace {
 StrengthRange alpha(Statistic statistic)
 {
     return {0.1, 0, statistic == Statistic::Mean ? 0.45 : 0.3};
+}
+
+StrengthRange displacement(Statistic /*statistic*/)
+{
+    return {1e-4, 1e-5, 2e-3};
 }
 
 StrengthRange squash(Statistic /*statistic*/)
@@ -25,16 +31,90 @@ StrengthRange squash(Statistic /*statistic*/)
 const std::vector<MethodRow>& all_methods()
 {
     static const std::vector<MethodRow> methods = {
-        {Method::LM, "L-M", "vertex norms, the least visible", true, alpha, plan_norms, find_norms, read_norms,
+        {Method::Layered,
+         "Layered",
+         "Waves and another on top: survives the most",
+         "",
+         {{Method::Waves, 0}, {Method::Spectral, 8}, {Method::LM, 0.1}},
+         false,
+         0,
+         displacement,
+         nullptr,
+         nullptr,
+         nullptr,
+         nullptr},
+        {Method::Waves,
+         "Waves",
+         "a smooth field: survives remeshing and smoothing",
+         "waves",
+         {{Method::Waves, 0}},
+         false,
+         0,
+         displacement,
+         plan_waves,
+         find_waves,
+         read_by_waves,
+         embed_by_waves},
+        {Method::LM,
+         "L-M",
+         "vertex norms, the least visible",
+         "norms",
+         {{Method::LM, 0}},
+         true,
+         1.5,
+         alpha,
+         plan_norms,
+         find_norms,
+         read_norms,
          embed_norms<Radial::Sphere>},
-        {Method::QSP, "QSP", "vertex norms, faster", true, alpha, plan_norms, find_norms, read_norms,
+        {Method::QSP,
+         "QSP",
+         "vertex norms, faster",
+         "norms",
+         {{Method::QSP, 0}},
+         true,
+         1.5,
+         alpha,
+         plan_norms,
+         find_norms,
+         read_norms,
          embed_norms<Radial::Selective>},
-        {Method::Cho, "Cho", "vertex norms, the fastest, more visible", true, alpha, plan_norms, find_norms, read_norms,
+        {Method::Cho,
+         "Cho",
+         "vertex norms, the fastest, more visible",
+         "norms",
+         {{Method::Cho, 0}},
+         true,
+         1.5,
+         alpha,
+         plan_norms,
+         find_norms,
+         read_norms,
          embed_norms<Radial::Straight>},
-        {Method::Geodesic, "Geodesic", "distances along the surface", true, alpha, plan_geodesic, find_geodesic,
-         read_geodesic, embed_geodesic},
-        {Method::Spectral, "Spectral", "survives noise and smoothing", false, squash, plan_spectral, find_spectral,
-         read_spectral, embed_spectral},
+        {Method::Geodesic,
+         "Geodesic",
+         "distances along the surface",
+         "strips",
+         {{Method::Geodesic, 0}},
+         true,
+         1.5,
+         alpha,
+         plan_geodesic,
+         find_geodesic,
+         read_geodesic,
+         embed_geodesic},
+        {Method::Spectral,
+         "Spectral",
+         "survives noise and smoothing",
+         "patches",
+         {{Method::Spectral, 0}},
+         false,
+         0,
+         squash,
+         plan_spectral,
+         find_spectral,
+         read_spectral,
+         embed_spectral},
     };
     return methods;
 }

@@ -6,7 +6,7 @@
 #include "../placement/cover.h"
 #include "plan.h"
 
-#include <string>
+#include <utility>
 #include <vector>
 
 namespace vcg_ext {
@@ -22,7 +22,13 @@ struct MethodRow {
     Method method;
     const char* name;   ///< in dialogs, scripts and reports
     const char* hint;   ///< for who must choose, half a line
+    const char* secret; ///< names the mask of its bits: methods that share it read each other's marks
+    /// The methods that it puts on top of each other, the first always and of the others the first that fits, each
+    /// with its strength (0: the user's). Itself alone for all but Layered, whose functions are empty but for strength.
+    std::vector<std::pair<Method, double>> layers;
     bool has_statistic; ///< whether Statistic matters
+    /// Mean soft value, in standard errors, that no unmarked mesh has; 0 where that tells nothing.
+    double unmarked_strength;
     StrengthRange (*strength)(Statistic statistic);
 
     /// What the key decides before a mesh is seen.

@@ -2,6 +2,7 @@
 #pragma once
 #include "../carrier/shells.h"
 #include "../carrier/strips.h"
+#include "../carrier/waves.h"
 #include "../geometry/moments.h"
 #include "../key/key.h"
 #include "marking.h"
@@ -18,10 +19,11 @@ struct Plan {
     std::vector<int>
         order;         ///< keyed: shell, strip or patch order[i] carries coded bit i; those after the last are spare
     Points directions; ///< keyed: where to look for the source of geodesic distances
+    WavePlan waves;    ///< keyed
 };
 
 /// How a body is held, so that its carriers can be found: by the surface itself, or by another that it was registered
 /// to. Which kind, the method says.
-using MarkFrame = std::variant<ShellFrame, StripFrame, Frame>;
+using MarkFrame = std::variant<ShellFrame, StripFrame, Frame, WaveBody>;
 
 } // namespace vcg_ext

@@ -3,15 +3,79 @@
 
 #include "../base/check.h"
 #include "../base/stopwatch.h"
+#include "../base/text.h"
 #include "../method/methods.h"
+#include "../payload/binomial.h"
+#include "../payload/code.h"
+#include "../payload/evidence.h"
 #include "judge.h"
 #include "secrets.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace vcg_ext {
 
 namespace {
 
-/// Per vertex of the unwelded surface the number of the bit that it carries, or -1.
+constexpr double sure = -6; ///< log10 of the probability below which a finding is told as one
+
+/// How often carriers are counted, and what share of the doubt each count may use.
+struct Count {
+    int carriers;
+    double weight;
+};
+
+/// Half of the doubt is for the number that the expected message asks for, the rest for the other recommended ones.
+std::vector<Count> counts_to_try(const DetectOptions& options)
+{
+    if (options.carriers.bits > 0)
+        return {{options.carriers.bits, 1}};
+    std::vector<int> ladder = recommended_numbers();
+    if (!options.expected.empty()) {
+        const int own = recommended_carriers(options.expected.front());
+        std::stable_partition(ladder.begin(), ladder.end(), [own](int count) { return count == own; });
+    }
+    std::vector<Count> counts;
+    for (std::size_t i = 0; i < ladder.size(); ++i)
+        counts.push_back({ladder[i], std::exp2(-static_cast<double>(std::min(i + 1, ladder.size() - 1)))});
+    return counts;
+}
+
+/// What each layer of the method reads; those that cannot read this surface at all are left out, and say why.
+std::vector<LayerReading> read_layers(const Surface& surface, const Key& key, CarrierOptions options, double& trim,
+                                      std::vector<std::string>& warnings)
+{
+    const MethodRow& wanted = row_of(options.method);
+    std::vector<LayerReading> layers;
+    std::string first_error;
+    for (const auto& layer : wanted.layers) {
+        const MethodRow& method = row_of(layer.first);
+        options.method = layer.first;
+        try {
+            const Plan plan = method.plan(key, options);
+            const MarkFrame frame = method.find_frame(surface, plan);
+            LayerReading read{layer.first, method.read(surface, plan, frame),
+                              bit_mask(key, method.secret, options.bits)};
+            trim = std::max(trim, plan.trim);
+            layers.push_back(std::move(read));
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const Error& error) {
+            if (first_error.empty())
+                first_error = error.what();
+            if (wanted.layers.size() > 1)
+                warnings.push_back(std::string(method.name) + " reads nothing here: " + error.what());
+        }
+    }
+    if (layers.empty())
+        throw Error(first_error);
+    for (const LayerReading& layer : layers)
+        warnings.insert(warnings.end(), layer.readings.warnings.begin(), layer.readings.warnings.end());
+    return layers;
+}
+
+/// Per vertex of the unwelded surface the number of the carrier that it is in, or -1.
 std::vector<int> carrier_of_vertex(const Readings& readings, const Reading& way, const std::vector<int>& site_of_vertex)
 {
     std::vector<int> carrier_of_label;
@@ -32,7 +96,130 @@ std::vector<int> carrier_of_vertex(const Readings& readings, const Reading& way,
     return result;
 }
 
+/// Mean |z| of soft values in standard errors: some .8 on an unmarked mesh, and above 1.2 where any key's mark is.
+double mean_strength(const LayerReading& layer)
+{
+    const std::vector<double>& soft = layer.readings.ways[layer.readings.blind].soft;
+    double sum = 0;
+    for (const double z : soft)
+        sum += std::abs(z) / static_cast<double>(soft.size());
+    return sum;
+}
+
+double probability(double log10_p)
+{
+    return std::pow(10.0, log10_p);
+}
+
+/// All of one count of carriers that is worth comparing with others.
+struct Trial {
+    Count count{};
+    std::vector<LayerReading> layers;
+    Judgement judgement;
+    double trim = 0;
+    std::vector<std::string> warnings;
+
+    /// log10 p of the expected message, or of any, this count's share taken off.
+    [[nodiscard]] double log10_p(bool expected) const
+    {
+        const double p = expected ? judgement.match->log10_p : judgement.best.log10_p;
+        return std::min(0.0, p - std::log10(count.weight));
+    }
+};
+
+Trial try_count(const Surface& surface, const Key& key, const DetectOptions& options, const Count& count)
+{
+    Trial trial;
+    trial.count = count;
+    CarrierOptions carriers = options.carriers;
+    carriers.bits = count.carriers;
+    trial.layers = read_layers(surface, key, carriers, trial.trim, trial.warnings);
+    std::vector<Message> fitting;
+    for (const Message& message : options.expected)
+        if (static_cast<int>(message.bits.size()) <= count.carriers)
+            fitting.push_back(message);
+    if (options.expected.size() != fitting.size() && (options.carriers.bits > 0 || fitting.empty()))
+        throw Error("The expected message does not fit: " + need(options.expected.front()) + ", but Bits is " +
+                    std::to_string(count.carriers) + ". Bits must be that of embedding; 0 finds it.");
+    trial.judgement = judge(trial.layers, count.carriers, options.expected);
+    return trial;
+}
+
+/// Without the zeros that a message is filled up with.
+Bits trimmed(Bits bits)
+{
+    while (!bits.empty() && bits.back() == 0)
+        bits.pop_back();
+    return bits;
+}
+
+std::string quoted(const std::string& message)
+{
+    return "'" + message + "'";
+}
+
+/// Fills in what was found, and says it in words.
+void conclude(const DetectOptions& options, const Trial& trial, double log10_any, double log10_expected,
+              DetectReport& result)
+{
+    const Judgement& judgement = trial.judgement;
+    const bool asked = !options.expected.empty();
+    const Message* expected = asked ? &options.expected[judgement.match->candidate] : nullptr;
+    const bool raw = asked && expected->kind == Kind::Bits;
+    result.p_message = probability(log10_any);
+    result.verified = log10_any < sure;
+    if (result.verified)
+        result.message = show_message(judgement.best.bits, judgement.best.kind);
+    const auto chance = [](double log10_p) { return "p 1e" + std::to_string(static_cast<int>(std::ceil(log10_p))); };
+    if (asked) {
+        const bool same = raw || !result.verified || trimmed(judgement.best.bits) == trimmed(expected->bits);
+        result.p_value = probability(log10_expected);
+        result.present = log10_expected < sure && same;
+        const std::string wanted = quoted(expected->text);
+        if (*result.present) {
+            result.finding = Verdict::Present;
+            result.verdict = "present: the mesh carries " + wanted + " (" + chance(log10_expected) + ").";
+            return;
+        }
+        if (result.verified && !same) {
+            result.finding = Verdict::AnotherMessage;
+            result.verdict = "another message: carries " + quoted(result.message) + " (" + chance(log10_any) +
+                             "), not " + wanted + ".";
+            return;
+        }
+    } else if (result.verified) {
+        result.finding = Verdict::Present;
+        result.verdict = "present: the mesh carries " + quoted(result.message) + " (" + chance(log10_any) + ").";
+        return;
+    }
+    for (const LayerReading& layer : trial.layers) {
+        const double usual = row_of(layer.method).unmarked_strength;
+        if (layer.readings.presence && *layer.readings.presence < sure) {
+            result.finding = Verdict::AnotherKey;
+            result.verdict = std::string("marked with this key by ") + name(layer.method) + " (" +
+                             chance(*layer.readings.presence) + "), but no message is read for certain.";
+            return;
+        }
+        if (usual > 0 && mean_strength(layer) > usual) {
+            result.finding = Verdict::AnotherKey;
+            result.verdict = std::string("another key or setting: the carriers of ") + name(layer.method) +
+                             " are too strong for an unmarked mesh (" + text(mean_strength(layer)) +
+                             " standard errors, where up to " + text(usual) +
+                             " is usual), but hold no message of this key.";
+            return;
+        }
+    }
+    result.finding = Verdict::NotFound;
+    result.verdict = "not found: no mark of this key; the mesh is unmarked, or the mark is destroyed.";
+}
+
 } // namespace
+
+const char* name(Verdict verdict)
+{
+    constexpr const char* names[] = {"not found", "present", "another message", "another key or setting"};
+    return names[static_cast<int>(verdict)];
+}
 
 DetectReport detect(const Surface& surface, const Key& key, const DetectOptions& options, const Progress& progress)
 {
@@ -40,34 +227,75 @@ DetectReport detect(const Surface& surface, const Key& key, const DetectOptions&
     Stopwatch watch;
     report(progress, 0, "Finding carriers");
     const Welded welded = checked_weld(surface);
-    const MethodRow& method = row_of(options.carriers.method);
-    const Plan plan = method.plan(key, options.carriers);
-    const MarkFrame frame = method.find_frame(welded.surface, plan);
-    report(progress, 30, "Reading");
-    Readings readings = method.read(welded.surface, plan, frame);
+    const bool asked = !options.expected.empty();
+    const std::vector<Count> counts = counts_to_try(options);
 
-    const int count = options.carriers.bits;
-    const Bits mask = bit_mask(key, count);
-    std::optional<Bits> expected = options.expected;
-    if (expected)
-        expected = pad_message(*expected, count);
-    Judgement judgement = judge(readings, mask, expected);
-    const Reading& way = readings.ways[judgement.way];
+    std::optional<Trial> best;
+    double log10_any = 0;
+    double log10_expected = 0;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        report(progress, 10 + 80 * static_cast<int>(i) / static_cast<int>(counts.size()), "Reading");
+        const bool fits = std::all_of(options.expected.begin(), options.expected.end(), [&](const Message& message) {
+            return static_cast<int>(message.bits.size()) <= counts[i].carriers;
+        });
+        if (!fits && i > 0)
+            continue;
+        Trial trial = try_count(welded.surface, key, options, counts[i]);
+        log10_any = std::min(log10_any, trial.log10_p(false));
+        if (asked)
+            log10_expected = std::min(log10_expected, trial.log10_p(true));
+        const auto loudness = [asked](const Trial& t) {
+            return asked ? std::min(t.log10_p(true), t.log10_p(false)) : t.log10_p(false);
+        };
+        if (!best || loudness(trial) < loudness(*best))
+            best = std::move(trial);
+        if (log10_any < sure || log10_expected < sure)
+            break; // weights were fixed before looking, so to stop here is no choice
+    }
 
+    const Judgement& judgement = best->judgement;
+    const Judgement::View& view = judgement.views[judgement.view];
+    const LayerReading& layer = best->layers[view.layer];
+    const Reading& way = layer.readings.ways[view.way];
     DetectReport result;
     result.method = options.carriers.method;
     result.statistic = options.carriers.statistic;
-    result.trim = plan.trim;
-    result.bits = std::move(judgement.bits);
-    result.soft = unmasked(way, mask);
+    result.carriers = best->count.carriers;
+    result.trim = best->trim;
+    result.soft.assign(view.soft.begin(), view.soft.begin() + result.carriers);
+    for (std::size_t i = result.carriers; i < view.soft.size(); ++i)
+        result.soft[i % result.carriers] += view.soft[i];
+    result.bits = hard_bits(result.soft);
     result.samples = way.samples;
-    result.detection_ratio = judgement.detection_ratio;
-    result.p_value = judgement.p_value;
-    result.present = judgement.present;
-    result.smoothing_rounds = readings.smoothing_rounds;
+    conclude(options, *best, log10_any, log10_expected, result);
+    if (asked) {
+        const Bits coded = encode(options.expected[judgement.match->candidate], result.carriers);
+        const int matches = matching_bits(coded, result.bits);
+        result.detection_ratio = static_cast<double>(matches) / result.carriers;
+        result.p_binomial =
+            std::min(1.0, binomial_tail(result.carriers, matches) * static_cast<double>(options.expected.size()) /
+                              view.weight / best->count.weight);
+        if (options.expected.size() > 1) {
+            result.candidate = static_cast<int>(judgement.match->candidate);
+            result.runner_up_p = probability(judgement.match->runner_up);
+        }
+    }
+    for (std::size_t i = 0; i < best->layers.size(); ++i) {
+        LayerReport one;
+        one.method = best->layers[i].method;
+        one.p_message = probability(judgement.of_layer[i].log10_p);
+        if (options.expected.size() == 1)
+            one.p_value = probability(judgement.match_of_layer[i]);
+        if (const auto& presence = best->layers[i].readings.presence) {
+            one.presence = probability(*presence);
+            result.presence = std::min(result.presence.value_or(1), *one.presence / best->count.weight);
+        }
+        result.layers.push_back(one);
+    }
+    result.smoothing_rounds = layer.readings.smoothing_rounds;
     result.orientation = way.orientation;
-    result.carrier_of_vertex = carrier_of_vertex(readings, way, welded.site_of_vertex);
-    result.warnings = std::move(readings.warnings);
+    result.carrier_of_vertex = carrier_of_vertex(layer.readings, way, welded.site_of_vertex);
+    result.warnings = best->warnings;
     result.seconds["detection"] = watch.lap();
     report(progress, 100, "Done");
     return result;

@@ -3,8 +3,10 @@
 
 #include "../base/check.h"
 #include "../base/stopwatch.h"
+#include "../base/text.h"
 #include "../method/methods.h"
 #include "../metric/displacement.h"
+#include "../payload/code.h"
 #include "detect.h"
 #include "secrets.h"
 
@@ -14,29 +16,128 @@ namespace vcg_ext {
 
 namespace {
 
+constexpr double visible = 5e-4; ///< MRMS over the diagonal
+
 EmbedOptions completed(EmbedOptions options)
 {
-    if (options.carriers.bits == 0)
-        options.carriers.bits = static_cast<int>(options.message.size());
     options.carriers.check();
     options.placement.check();
+    if (options.carriers.bits == 0)
+        options.carriers.bits = recommended_carriers(options.message);
     options.placement.strength = checked_strength(options.carriers, options.placement.strength);
-    options.message = pad_message(options.message, options.carriers.bits);
     return options;
 }
 
-/// Reads blind what was embedded: without the message, unless the body's ends can only be told apart by it.
+/// Puts one layer on the cover.
+Marking mark(const Cover& cover, const Key& key, const MethodRow& method, const EmbedOptions& options,
+             const Bits& coded, double strength, double& trim, const Progress& progress)
+{
+    CarrierOptions carriers = options.carriers;
+    carriers.method = method.method;
+    PlacementOptions placement = options.placement;
+    if (strength > 0)
+        placement.strength = strength;
+    const Plan plan = method.plan(key, carriers);
+    trim = std::max(trim, plan.trim);
+    return method.embed(cover, plan, masked(coded, bit_mask(key, method.secret, carriers.bits)), placement, progress);
+}
+
+/// Takes over what a layer reports; those after the first add to it.
+void take_up(const Marking& marking, EmbedReport& result)
+{
+    const bool first = result.layers.size() == 1;
+    if (marking.samples_min > 0)
+        result.samples_min = marking.samples_min;
+    result.capacity = first ? marking.capacity : std::min(result.capacity, marking.capacity);
+    result.rounds += marking.rounds;
+    result.guarded_vertices += marking.kept.guarded_vertices;
+    if (marking.kept.solver)
+        result.solver = marking.kept.solver;
+    if (marking.kept.moves)
+        result.moves = marking.kept.moves;
+    result.warnings.insert(result.warnings.end(), marking.warnings.begin(), marking.warnings.end());
+}
+
+/// All layers of the method, the one on top of the other. \return the positions
+Points put_on(const Surface& surface, const Key& key, const EmbedOptions& options, const Bits& coded,
+              EmbedReport& result, const Progress& progress)
+{
+    const MethodRow& wanted = row_of(options.carriers.method);
+    Surface marked = surface;
+    std::string refusals;
+    for (std::size_t i = 0; i < wanted.layers.size(); ++i) {
+        const auto& [method, strength] = wanted.layers[i];
+        const Cover cover(marked);
+        try {
+            Marking marking = mark(cover, key, row_of(method), options, coded, strength, result.trim, progress);
+            result.layers.push_back(method);
+            take_up(marking, result);
+            marked.points = std::move(marking.kept.points);
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const Error& error) {
+            if (i == 0)
+                throw;
+            refusals += std::string(" ") + name(method) + ": " + error.what();
+            continue;
+        }
+        if (i > 0)
+            return marked.points;
+    }
+    if (!refusals.empty())
+        result.warnings.push_back(std::string("Only ") + name(result.layers.front()) +
+                                  " fits on this mesh, so strong noise and coarse quantization will erase the mark." +
+                                  refusals);
+    return marked.points;
+}
+
+/// Reads back what was embedded, layer by layer: the part of the carriers that hold their bits. Blind, unless the
+/// body's ends can only be told apart by the message.
 double self_check(const Surface& marked, const Key& key, const EmbedOptions& options, EmbedReport& result,
                   const Progress& progress)
 {
     const auto quietly = [&progress](int, const char*) { return !progress || progress(85, "Checking blind"); };
-    if (detect(marked, key, {options.carriers, {}}, quietly).bits == result.bits)
-        return 1;
-    const DetectReport found = detect(marked, key, {options.carriers, result.bits}, quietly);
-    if (*found.detection_ratio == 1)
-        result.warnings.emplace_back("The body is so symmetric that with this key the message can only be read by who "
-                                     "knows what to expect. Set it for detection too, or take another key.");
-    return *found.detection_ratio;
+    double worst = 1;
+    for (const Method layer : result.layers) {
+        DetectOptions blind{options.carriers, {}};
+        blind.carriers.method = layer;
+        if (detect(marked, key, blind, quietly).bits == result.bits)
+            continue;
+        blind.expected = {options.message};
+        const double ratio = *detect(marked, key, blind, quietly).detection_ratio;
+        if (ratio == 1)
+            result.warnings.emplace_back(
+                "The body is so symmetric that with this key the message can only be read by who knows what to expect. "
+                "Set it for detection too, or take another key.");
+        worst = std::min(worst, ratio);
+    }
+    return worst;
+}
+
+/// What a reader has to set, in one sentence.
+std::string recipe_of(const EmbedOptions& options)
+{
+    const MethodRow& method = row_of(options.carriers.method);
+    std::string recipe = std::string("read it with Method ") + method.name;
+    if (method.has_statistic)
+        recipe += std::string(", Statistic ") + name(options.carriers.statistic);
+    recipe += ", Bits " + std::to_string(options.carriers.bits);
+    recipe += options.carriers.trim < 0 ? ", Trim drawn from the key (-1)" : ", Trim " + text(options.carriers.trim);
+    return recipe + ".";
+}
+
+void warn(const EmbedOptions& options, EmbedReport& result)
+{
+    if (options.message.kind != Kind::Bits && clean_log_p(options.message, options.carriers.bits) > -6)
+        result.warnings.push_back("With " + std::to_string(options.carriers.bits) +
+                                  " bits nobody can prove this message with the key alone, only who knows what to "
+                                  "expect. Set Bits to 0, or to " +
+                                  std::to_string(recommended_carriers(options.message)) + ".");
+    if (options.message.kind == Kind::Bits && options.carriers.bits < 20)
+        result.warnings.emplace_back("Fewer than 20 bits can never prove anything: they match by chance too often.");
+    if (result.mrms_relative > visible)
+        result.warnings.push_back("The mark moves the surface by " + text(result.mrms_relative) +
+                                  " of the diagonal (MRMS): it will show. Lower Strength, or take more Bits.");
 }
 
 } // namespace
@@ -47,42 +148,32 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     report(progress, 0, "Finding carriers");
     Stopwatch watch;
     const Welded welded = checked_weld(surface);
-    const Cover cover(welded.surface);
-    const MethodRow& method = row_of(options.carriers.method);
-    const Plan plan = method.plan(key, options.carriers);
-    const Bits mask = bit_mask(key, options.carriers.bits);
-    Marking marking = method.embed(cover, plan, masked(options.message, mask), options.placement, progress);
-
     EmbedReport result;
     result.method = options.carriers.method;
     result.statistic = options.carriers.statistic;
-    result.bits = options.message;
+    result.message = show_message(options.message.bits, options.message.kind);
+    result.bits = encode(options.message, options.carriers.bits);
     result.strength = options.placement.strength;
-    result.trim = plan.trim;
     result.carriers = options.carriers.bits;
-    result.samples_min = marking.samples_min;
-    result.capacity = marking.capacity;
-    result.rounds = marking.rounds;
-    result.guarded_vertices = marking.kept.guarded_vertices;
-    result.solver = marking.kept.solver;
-    result.moves = marking.kept.moves;
-    result.warnings = std::move(marking.warnings);
+    Points placed = put_on(welded.surface, key, options, result.bits, result, progress);
     result.seconds["placement"] = watch.lap();
 
     report(progress, 85, "Checking blind");
-    const Points stored = options.placement.storage == Storage::Float ? rounded_to_float(marking.kept.points)
-                                                                      : std::move(marking.kept.points);
+    const Points stored = options.placement.storage == Storage::Float ? rounded_to_float(placed) : std::move(placed);
     Surface marked{unweld(surface.points, welded.site_of_vertex, stored), surface.triangles};
     result.detection_ratio = self_check(marked, key, options, result, progress);
     if (result.detection_ratio < 1)
-        throw DoesNotFit("The blind self-check did not read every bit back.", marking.capacity);
+        throw DoesNotFit("The blind self-check did not read every bit back.", result.capacity);
     result.seconds["check"] = watch.lap();
 
     report(progress, 95, "Measuring");
+    const VertexFaces around = vertex_faces(static_cast<int>(stored.size()), welded.surface.triangles);
     result.moved_vertices = moved_count(surface.points, marked.points);
     result.max_displacement = max_displacement(surface.points, marked.points);
-    result.mrms = local_mrms(cover.points, stored, cover.triangles, cover.around);
+    result.mrms = local_mrms(welded.surface.points, stored, welded.surface.triangles, around);
     result.mrms_relative = result.mrms / bounding_diagonal(welded.surface);
+    result.recipe = recipe_of(options);
+    warn(options, result);
     result.seconds["measure"] = watch.lap();
     report(progress, 100, "Done");
     surface.points = std::move(marked.points);
@@ -93,11 +184,13 @@ int carriers_that_fit(const Surface& surface, const Key& key, const EmbedOptions
                       const Progress& progress)
 {
     EmbedOptions options = completed(wanted);
+    const int needed = options.message.kind == Kind::Bits ? 1 : static_cast<int>(options.message.bits.size());
     const int most = 3 * options.carriers.bits / 4;
     int count = cause.roomy() > 0 ? std::min(most, 3 * cause.roomy() / 4) : most;
-    for (int attempt = 0; attempt < 2 && count > 0; ++attempt, count /= 2) {
+    for (int attempt = 0; attempt < 2 && count >= needed; ++attempt, count /= 2) {
         options.carriers.bits = count;
-        options.message.resize(count);
+        if (options.message.kind == Kind::Bits)
+            options.message.bits.resize(std::min<std::size_t>(options.message.bits.size(), count));
         Surface copy = surface;
         try {
             embed(copy, key, options,

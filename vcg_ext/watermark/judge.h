@@ -1,23 +1,62 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../carrier/reading.h"
-#include "../payload/message.h"
+#include "../method/method.h"
+#include "../payload/message_text.h"
 
 #include <optional>
 
 namespace vcg_ext {
 
-/// What a surface's readings come to, the mask lifted.
-struct Judgement {
-    int way = 0;                           ///< the one that was taken
-    Bits bits;                             ///< as it reads them
-    std::optional<double> detection_ratio; ///< with an expected message only, as the two that follow
-    std::optional<double> p_value;
-    std::optional<bool> present;
+/// What one method read of a surface, and the mask of its bits.
+struct LayerReading {
+    Method method{};
+    Readings readings;
+    Bits mask;
 };
 
-/// Takes the way that matches the expected message best, or the blind one, and says what the match is worth.
-/// \param expected as long as the mask
-[[nodiscard]] Judgement judge(const Readings& readings, const Bits& mask, const std::optional<Bits>& expected);
+/// What the readings come to, the mask lifted. Probabilities as log10 of true bounds.
+struct Judgement {
+    /// One view of the carriers: a way of one layer, or of two together, the one behind the other. Its soft values are
+    /// unmasked.
+    struct View {
+        double weight = 1;
+        int layer = 0; ///< of the first
+        int way = 0;
+        bool blind = true; ///< chosen without the mask, so fit for decoding
+        std::vector<double> soft;
+    };
+
+    /// A message as one view reads it.
+    struct Read {
+        double log10_p = 0; ///< that any message would be read so well
+        Bits bits;
+        Kind kind = Kind::Text;
+    };
+
+    /// Of a list of expected messages.
+    struct Match {
+        std::size_t candidate = 0;
+        double log10_p = 0;   ///< times the number of candidates
+        double runner_up = 0; ///< of the next, likewise
+    };
+
+    std::vector<View> views;    ///< weights sum to 1 at most over all views, and over the blind ones
+    Read best;                  ///< of all blind views
+    std::vector<Read> of_layer; ///< each by itself
+    std::optional<Match> match; ///< with expected messages only
+    std::vector<double> match_of_layer;
+    std::size_t view = 0; ///< that speaks loudest: where the expected message, or the one read, is
+};
+
+/// The views that the layers' ways give: each layer's alone, and each layer behind the first, which share the weight
+/// evenly. In views of two, soft values are log-likelihood ratios; a layer's that are standard errors z become 2 m z
+/// with m^2 = mean z^2 - 1, at least 0, which looks at magnitudes alone.
+[[nodiscard]] std::vector<Judgement::View> views_of(const std::vector<LayerReading>& layers);
+
+/// Weighs expected messages, and decodes what is there without them.
+/// \param carriers of each layer
+[[nodiscard]] Judgement judge(const std::vector<LayerReading>& layers, int carriers,
+                              const std::vector<Message>& expected);
 
 } // namespace vcg_ext

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../method/marking.h"
-#include "../payload/message.h"
+#include "../payload/message_text.h"
 
 #include <optional>
+#include <vector>
 
 namespace vcg_ext {
 
 struct EmbedOptions {
-    CarrierOptions carriers; ///< `bits` 0 takes the message's length
-    Bits message;            ///< at most as long as there are carriers; what is left is zero
+    CarrierOptions carriers; ///< `bits` 0: as many as are recommended for the message
+    Message message;
     PlacementOptions placement;
 };
 
 struct DetectOptions {
-    CarrierOptions carriers;
-    std::optional<Bits> expected; ///< the message to compare with, padded with zeros
+    CarrierOptions carriers; ///< `bits` 0: the number is found
+    /// The message that should be there, or a list of which one may be; empty to read with the key alone.
+    std::vector<Message> expected;
 };
 
 } // namespace vcg_ext

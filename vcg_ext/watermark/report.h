@@ -13,11 +13,13 @@ namespace vcg_ext {
 struct EmbedReport {
     Method method{};
     Statistic statistic{};
-    Bits bits;           ///< what was embedded, padded to the number of carriers
+    std::string message; ///< as a detector shows it
+    Bits bits;           ///< what the carriers hold, the mask lifted: the coded message
     double strength = 0; ///< as used
     double trim = 0;     ///< as used
     int carriers = 0;
-    int samples_min = 0;        ///< vertices in the poorest carrier
+    std::vector<Method> layers; ///< that were put on top of each other
+    int samples_min = 0;        ///< vertices in the poorest carrier; 0 where carriers are no sets of vertices
     int capacity = 0;           ///< see Marking
     double detection_ratio = 0; ///< of the blind self-check: 1, or embed() throws
     int rounds = 0;
@@ -30,26 +32,58 @@ struct EmbedReport {
     std::optional<SolverSummary> solver;   ///< Method::LM only
     std::optional<MoveCounts> moves;       ///< Method::Geodesic only
     std::vector<std::string> warnings;
+    std::string recipe; ///< what a reader must set
+};
+
+/// What a detection comes to.
+enum class Verdict {
+    NotFound,       ///< no mark of this key: unmarked, or destroyed
+    Present,        ///< the expected message; without one, a message that is verified
+    AnotherMessage, ///< a verified message, but not the expected one
+    AnotherKey      ///< the carriers are far stronger than an unmarked mesh's, but hold no message of this key
+};
+
+[[nodiscard]] const char* name(Verdict verdict);
+
+/// What one layer said by itself.
+struct LayerReport {
+    Method method{};
+    std::optional<double> p_value;
+    double p_message = 1;
+    std::optional<double> presence;
 };
 
 struct DetectReport {
     Method method{};
     Statistic statistic{};
     double trim = 0;
-    Bits bits;
-    /// Per bit: the statistic's distance from the threshold in standard errors, positive for 1.
+    int carriers = 0;    ///< as given, or as found
+    Bits bits;           ///< what the carriers say, the mask lifted
+    std::string message; ///< that was read, where it is verified; else empty
+    /// Per carrier how strongly it says 1 (positive) or 0: in standard errors; Waves: log-likelihood ratios; Layered:
+    /// log-likelihood ratios of both layers.
     std::vector<double> soft;
-    std::vector<int> samples;              ///< per bit: vertices in its carrier
-    std::optional<double> detection_ratio; ///< matching bits over all; with an expected message only
-    /// Binomial tail of at least that many matches by chance, over the weight of the way of reading that was taken.
+    std::vector<int> samples;              ///< per carrier: vertices in it; empty where carriers are no sets of those
+    std::optional<double> detection_ratio; ///< carriers that match those of the expected message, over all
+    /// With an expected message: a true upper bound of the probability that a mesh without a mark of this key, or
+    /// marked with another, matches as well by chance. Of a list: that any of its messages does.
     std::optional<double> p_value;
-    std::optional<bool> present;         ///< p_value below 1e-6
+    std::optional<double> p_binomial; ///< the same by counting matches alone, as the literature does
+    std::optional<bool> present;      ///< p_value below 1e-6, and no other message verified
+    double p_message = 1;             ///< that such a mesh gives any message as well as the one that was read
+    bool verified = false;            ///< p_message below 1e-6
+    std::optional<double> presence;   ///< that such a mesh looks as marked, whatever the message; Waves and Layered
+    std::optional<int> candidate;     ///< number of the best of a list of expected messages, from 0
+    std::optional<double> runner_up_p;
+    Verdict finding = Verdict::NotFound;
+    std::string verdict; ///< the same in plain words, with figures
+    std::vector<LayerReport> layers;
     std::optional<int> smoothing_rounds; ///< of the surface before it was read; Method::Geodesic only
     std::map<std::string, double> seconds;
     std::vector<std::string> warnings;
     /// Spectral: whether axis 1 and axis 2 were read along (+) or against (-) the body's third moments, as "++" or "-+".
     std::string orientation;
-    std::vector<int> carrier_of_vertex; ///< per vertex the number of the bit it carries, or -1
+    std::vector<int> carrier_of_vertex; ///< per vertex the number of the carrier that it is in, or -1
 };
 
 } // namespace vcg_ext

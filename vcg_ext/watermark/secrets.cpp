@@ -3,9 +3,9 @@
 
 namespace vcg_ext {
 
-Bits bit_mask(const Key& key, int count)
+Bits bit_mask(const Key& key, const std::string& secret, int count)
 {
-    Stream draws = key.stream("bit-mask");
+    Stream draws = key.stream("bit-mask " + secret);
     Bits mask(count);
     for (std::uint8_t& bit : mask)
         bit = static_cast<std::uint8_t>(draws.below(2));
@@ -19,21 +19,20 @@ Bits masked(Bits bits, const Bits& mask)
     return bits;
 }
 
-std::vector<double> unmasked(const Reading& reading, const Bits& mask)
+std::vector<double> unmasked(std::vector<double> soft, const Bits& mask)
 {
-    std::vector<double> soft = reading.soft;
     for (std::size_t i = 0; i < soft.size(); ++i)
         if (mask[i])
             soft[i] = -soft[i];
     return soft;
 }
 
-Bits hard_bits(const Reading& reading, const Bits& mask)
+Bits hard_bits(const std::vector<double>& soft)
 {
-    Bits bits(mask.size());
+    Bits bits(soft.size());
     for (std::size_t i = 0; i < bits.size(); ++i)
-        bits[i] = reading.soft[i] > 0;
-    return masked(std::move(bits), mask);
+        bits[i] = soft[i] > 0;
+    return bits;
 }
 
 } // namespace vcg_ext

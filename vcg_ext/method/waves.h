@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "../base/progress.h"
+#include "../carrier/reading.h"
+#include "../payload/message.h"
+#include "../placement/cover.h"
+#include "plan.h"
+
+namespace vcg_ext {
+
+/// The method of waves: each bit in one Fourier coefficient of the solid, by quantization index modulation; see
+/// MethodRow.
+[[nodiscard]] Plan plan_waves(const Key& key, const CarrierOptions& options);
+[[nodiscard]] MarkFrame find_waves(const Surface& surface, const Plan& plan);
+
+/// Strengths from 5e-6 to 2e-3 are tried, those near the usual one with the most weight.
+[[nodiscard]] Readings read_by_waves(const Surface& surface, const Plan& plan, const MarkFrame& frame);
+[[nodiscard]] Marking embed_by_waves(const Cover& cover, const Plan& plan, const Bits& coded,
+                                     const PlacementOptions& options, const Progress& progress);
+
+} // namespace vcg_ext
