@@ -2,7 +2,7 @@
 #include "noise.h"
 
 #include "../base/weld.h"
-#include "../carrier/shells.h"
+#include "../geometry/centre.h"
 #include "../geometry/centre.h"
 #include "../key/random.h"
 #include "../key/stream.h"
