@@ -53,7 +53,9 @@ def main() -> None:
     meshes.load_new_mesh(str(options.mesh))
     original = meshes.current_mesh().vertex_matrix()
     faces = meshes.current_mesh().face_matrix()
-    report = meshes.apply_filter("apply_coord_watermark", message="(c) Jane", method="L-M", key="correct horse battery staple")
+    report = meshes.apply_filter(
+        "apply_coord_watermark", message="(c) Jane", method="L-M", key="correct horse battery staple"
+    )
     marked = meshes.current_mesh().vertex_matrix()
     moved = np.linalg.norm(marked - original, axis=1) / np.linalg.norm(np.ptp(original, axis=0))
 

@@ -20,6 +20,7 @@ MESHES = BUILD / "data" / "meshes"
 
 METHODS = ["Layered", "Waves", "L-M", "QSP", "Cho", "Geodesic", "Spectral"]
 STATISTICS = ["Mean", "Variance"]
+WITHOUT_STATISTIC = ["Layered", "Waves", "Spectral"]
 
 EMBED = "Watermark: Embed"
 DETECT = "Watermark: Detect"

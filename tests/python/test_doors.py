@@ -4,7 +4,7 @@
 from pathlib import Path
 
 import pytest
-from doors import DETECT, DOORS, EMBED, MESHES, METHODS, STATISTICS, Value
+from doors import DETECT, DOORS, EMBED, MESHES, METHODS, STATISTICS, WITHOUT_STATISTIC, Value
 
 KEY = "correct horse battery staple"
 MESSAGE = "(c) 2026"
@@ -16,6 +16,8 @@ pytestmark = pytest.mark.usefixtures("display")
 @pytest.mark.parametrize("statistic", STATISTICS)
 @pytest.mark.parametrize("method", METHODS)
 def test_what_one_door_embeds_each_door_reads(tmp_path: Path, mesh: str, statistic: str, method: str) -> None:
+    if method in WITHOUT_STATISTIC and statistic != STATISTICS[0]:
+        return  # the same again
     carriers: dict[str, Value] = {"Method": method, "Statistic": statistic, "Key": KEY}
     embedded, found = {}, {}
     for name, door in DOORS.items():

@@ -19,7 +19,11 @@ COPIES: dict[str, tuple[str, dict[str, object], int]] = {
     "noisy": ("apply_watermark_attack", {"attack": "Noise", "amount": 0.001, "seed": 1}, 400_000),
     "smoothed": ("apply_watermark_attack", {"attack": "Smooth", "iterations": 5}, 400_000),
     "simplified": ("apply_watermark_attack", {"attack": "Simplify"}, 400_000),
-    "marked": ("apply_coord_watermark", {"message": "(c) 2026", "key": "metro", "method": "L-M", "bits": 64}, 1_500_000),
+    "marked": (
+        "apply_coord_watermark",
+        {"message": "(c) 2026", "key": "metro", "method": "L-M", "bits": 64},
+        1_500_000,
+    ),
 }
 
 pytestmark = pytest.mark.usefixtures("display")

@@ -6,6 +6,7 @@
 #include "vcg_ext/base/parallel.h"
 #include "vcg_ext/carrier/patches.h"
 #include "vcg_ext/method/spectral.h"
+#include "vcg_ext/watermark/secrets.h"
 #include "vcg_ext/watermark/watermark.h"
 
 #include <Eigen/Eigenvalues>
@@ -125,7 +126,12 @@ TEST(Chebyshev, MarkedPatchesHaveTheShapesOfTheExactProjector)
     EmbedOptions options;
     options.carriers.method = Method::Spectral;
     options.carriers.bits = 16;
-    options.message = read_message("hex:C0DE");
+    // What the patches hold is given, whatever the mask is.
+    options.message = read_message("bits:1100000011011110");
+    Stream draws = key.stream("bit-mask");
+    for (std::uint8_t& bit : options.message.bits)
+        bit ^= static_cast<std::uint8_t>(draws.below(2));
+    options.message.bits = masked(options.message.bits, bit_mask(key, "patches", options.carriers.bits));
     (void)embed(marked, key, options);
 
     const PatchReading read = read_patches(marked, plan_spectral(key, options.carriers), principal_frame(marked));

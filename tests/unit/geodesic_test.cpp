@@ -27,7 +27,7 @@ EmbedOptions options_for(Statistic statistic, int bits)
     options.carriers.statistic = statistic;
     options.carriers.bits = bits;
     options.carriers.trim = 0.1;
-    options.message = read_message("hex:c0ffee");
+    options.message = read_message("bits:110000001111111111101110");
     return options;
 }
 

@@ -134,14 +134,14 @@ TEST(Spectral, TheChanceOfAWrongKeyIsFourTails)
     DetectOptions reading = reading_of(options);
     reading.expected = {options.message};
     const DetectReport right = detect(marked, Key("right"), reading);
-    EXPECT_DOUBLE_EQ(*right.p_value, 4 * binomial_tail(64, 64));
+    EXPECT_DOUBLE_EQ(*right.p_binomial, 4 * binomial_tail(64, 64));
     EXPECT_EQ(right.orientation, "++");
     int below = 0;
     const int keys = 20;
     for (int i = 0; i < keys; ++i) {
         const DetectReport wrong = detect(marked, Key("wrong " + std::to_string(i)), reading);
         const int matches = matching_bits(options.message.bits, wrong.bits);
-        EXPECT_DOUBLE_EQ(*wrong.p_value, std::min(1.0, 4 * binomial_tail(64, matches)));
+        EXPECT_DOUBLE_EQ(*wrong.p_binomial, std::min(1.0, 4 * binomial_tail(64, matches)));
         below += *wrong.p_value < 0.1;
     }
     EXPECT_LE(below, 7); // of 20 with a chance of at most 0.1 each: more than 7 has a chance of 0.0004

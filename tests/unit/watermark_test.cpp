@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/load.h"
 #include "support/topology.h"
+#include "vcg_ext/attack/attack.h"
 #include "vcg_ext/base/error.h"
 #include "vcg_ext/base/parallel.h"
 #include "vcg_ext/base/progress.h"
 #include "vcg_ext/base/weld.h"
 #include "vcg_ext/carrier/statistic.h"
 #include "vcg_ext/geometry/normals.h"
+#include "vcg_ext/method/methods.h"
 #include "vcg_ext/placement/cover.h"
 #include "vcg_ext/watermark/watermark.h"
 
@@ -31,6 +33,7 @@ EmbedOptions options_for(Method method, Statistic statistic)
     EmbedOptions options;
     options.carriers.method = method;
     options.carriers.statistic = statistic;
+    options.carriers.bits = 64;
     options.message = read_message("museum");
     return options;
 }
@@ -296,14 +299,19 @@ TEST(Embed, LeavesVerticesWithoutFaces)
     EXPECT_EQ(*read(surface, options).detection_ratio, 1);
 }
 
-TEST(Embed, WithBitsZeroTakesTheMessagesLength)
+TEST(Embed, WithBitsZeroTakesWhatTheMessageNeedsAndDetectFindsIt)
 {
     Surface surface = load("fandisk.off");
     EmbedOptions options = options_for(Method::LM, Statistic::Mean);
     options.carriers.bits = 0;
-    EXPECT_EQ(embed(surface, test_key(), options).carriers, 48);
-    options.carriers.bits = 48;
-    EXPECT_EQ(format_message(read(surface, options).bits), "museum");
+    EXPECT_EQ(embed(surface, test_key(), options).carriers, 96); // 48 bits
+    const DetectReport alone = detect(surface, test_key(), {options.carriers, {}});
+    EXPECT_EQ(alone.message, "museum");
+    EXPECT_EQ(alone.carriers, 96);
+    EXPECT_EQ(alone.finding, Verdict::Present);
+    const DetectReport known = read(surface, options);
+    EXPECT_TRUE(*known.present);
+    EXPECT_LE(*known.p_value, alone.p_message);
 }
 
 // Section 5.6.2: the more the third weight counts, the greater the distortion; (.49, .49, .02) is the thesis' best.
@@ -369,6 +377,34 @@ TEST(Distortion, IsAsPublished)
             }
             EXPECT_LT(mrms(Method::QSP), 0.45 * cho);
             EXPECT_LT(mrms(Method::LM), (statistic == Statistic::Mean ? 0.17 : 0.19) * cho);
+        }
+    }
+}
+
+/// One key and a message for each customer: nobody is taken for another, by any method.
+TEST(Verdict, AnotherMessageIsSaidToBeAnother)
+{
+    const Surface cover = load("bunny00.off");
+    for (const MethodRow& row : all_methods()) {
+        SCOPED_TRACE(row.name);
+        EmbedOptions options;
+        options.carriers.method = row.method;
+        options.message = read_message("id:17");
+        Surface stego = cover;
+        (void)embed(stego, test_key(), options);
+        AttackOptions noise;
+        noise.attack = Attack::Noise;
+        noise.amount = 0.001;
+        (void)apply_attack(stego, noise);
+        const auto ask = [&](const char* message) {
+            return detect(stego, test_key(), {options.carriers, {read_message(message)}});
+        };
+        EXPECT_EQ(ask("id:17").finding, Verdict::Present);
+        for (const char* other : {"id:18", "id:1041", "mark"}) {
+            const DetectReport found = ask(other);
+            EXPECT_FALSE(*found.present) << other;
+            EXPECT_EQ(found.finding, Verdict::AnotherMessage) << other << ": " << found.verdict;
+            EXPECT_EQ(found.message, "id:17");
         }
     }
 }

@@ -3,7 +3,6 @@
 
 #include "../base/weld.h"
 #include "../geometry/centre.h"
-#include "../geometry/centre.h"
 #include "../key/random.h"
 #include "../key/stream.h"
 

@@ -27,6 +27,9 @@ struct CarrierOptions {
     /// Spectral: chapter 3 as the thesis prints it, for comparison. Patches of Algorithm 1 with their own Laplacians,
     /// exact eigenbases (up to 2,500 vertices a patch), the highest 70 %, (3.21), T = 2.25, no guard against folds.
     bool as_printed = false;
+    /// Detection: only look for marks that nothing was done to but a similarity; for numbers of carriers that are tried
+    /// on the side.
+    bool quick = false;
 
     /// \throw Error where a value is out of its range
     void check() const;

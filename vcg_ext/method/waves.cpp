@@ -10,7 +10,9 @@ namespace vcg_ext {
 
 namespace {
 
-constexpr int rungs = 9; ///< each way from the usual strength: a factor of 22, so 5e-6 to 2e-3
+constexpr int rungs_at_rest = 9;   ///< each way from the usual strength: a factor of 22, so 5e-6 to 2e-3
+constexpr int rungs_processed = 3; ///< the same where processing is allowed for: 3.5e-5 to 2.8e-4
+constexpr int many_waves = 128;    ///< above it only the rungs next to the usual one, for the time it takes
 constexpr int most_ways = 4;
 constexpr double sure = -9; ///< log10 of presence: no need to look at what processing may have done
 
@@ -43,8 +45,7 @@ MarkFrame find_waves(const Surface& surface, const Plan& /*plan*/)
 Readings read_by_waves(const Surface& /*surface*/, const Plan& plan, const MarkFrame& frame)
 {
     const WaveBody& body = std::get<WaveBody>(frame);
-    // What is read at rest is a part of all the ways, with the same weights: to stop there is no choice to be paid for.
-    const auto read = [&](bool at_rest_only) {
+    const auto read = [&](bool at_rest_only, int rungs) {
         WaveReadOptions options;
         options.rungs = rungs;
         options.at_rest_only = at_rest_only;
@@ -53,9 +54,13 @@ Readings read_by_waves(const Surface& /*surface*/, const Plan& plan, const MarkF
         result->presence = wave_presence(result->reading);
         return result;
     };
-    std::shared_ptr<const Read> found = read(true);
-    if (log10_of(found->presence.log_p) > sure)
-        found = read(false);
+    std::shared_ptr<const Read> found = read(true, rungs_at_rest);
+    if (log10_of(found->presence.log_p) > sure && !plan.options.quick) {
+        std::shared_ptr<const Read> processed = read(false, plan.options.bits <= many_waves ? rungs_processed : 1);
+        if (processed->presence.log_p < found->presence.log_p)
+            found = std::move(processed);
+    }
+    const double half = std::log10(2.0); // two readings, each with half of the doubt
     Readings readings;
     readings.in_log_likelihoods = true;
     for (WaveSoft& way : wave_ways(found->reading, found->presence, most_ways)) {
@@ -65,9 +70,9 @@ Readings read_by_waves(const Surface& /*surface*/, const Plan& plan, const MarkF
         reading.soft = std::move(way.soft);
         readings.ways.push_back(std::move(reading));
     }
-    readings.presence = log10_of(found->presence.log_p);
-    readings.match = [found](const Bits& coded) {
-        return log10_of(wave_match(found->reading, found->presence, coded).log_p);
+    readings.presence = std::min(0.0, log10_of(found->presence.log_p) + half);
+    readings.match = [found, half](const Bits& coded) {
+        return std::min(0.0, log10_of(wave_match(found->reading, found->presence, coded).log_p) + half);
     };
     return readings;
 }

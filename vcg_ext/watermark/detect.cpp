@@ -18,19 +18,21 @@ namespace vcg_ext {
 
 namespace {
 
-constexpr double sure = -6; ///< log10 of the probability below which a finding is told as one
+constexpr int most_to_search = 256; ///< carriers that are read in full where their number is not known
+constexpr double sure = -6;         ///< log10 of the probability below which a finding is told as one
 
 /// How often carriers are counted, and what share of the doubt each count may use.
 struct Count {
     int carriers;
     double weight;
+    bool quick; ///< see CarrierOptions
 };
 
 /// Half of the doubt is for the number that the expected message asks for, the rest for the other recommended ones.
 std::vector<Count> counts_to_try(const DetectOptions& options)
 {
     if (options.carriers.bits > 0)
-        return {{options.carriers.bits, 1}};
+        return {{options.carriers.bits, 1, options.carriers.quick}};
     std::vector<int> ladder = recommended_numbers();
     if (!options.expected.empty()) {
         const int own = recommended_carriers(options.expected.front());
@@ -38,7 +40,8 @@ std::vector<Count> counts_to_try(const DetectOptions& options)
     }
     std::vector<Count> counts;
     for (std::size_t i = 0; i < ladder.size(); ++i)
-        counts.push_back({ladder[i], std::exp2(-static_cast<double>(std::min(i + 1, ladder.size() - 1)))});
+        counts.push_back({ladder[i], std::exp2(-static_cast<double>(std::min(i + 1, ladder.size() - 1))),
+                          options.expected.empty() ? ladder[i] > most_to_search : i > 0});
     return counts;
 }
 
@@ -133,6 +136,7 @@ Trial try_count(const Surface& surface, const Key& key, const DetectOptions& opt
     trial.count = count;
     CarrierOptions carriers = options.carriers;
     carriers.bits = count.carriers;
+    carriers.quick = count.quick;
     trial.layers = read_layers(surface, key, carriers, trial.trim, trial.warnings);
     std::vector<Message> fitting;
     for (const Message& message : options.expected)

@@ -128,6 +128,9 @@ Judgement judge(const std::vector<LayerReading>& layers, int carriers, const std
     const double shares = static_cast<double>(2 * layers.size() - 1);
     const double own_share = std::log10(1 / shares);
     Codes codes(carriers);
+    result.view =
+        std::find_if(result.views.begin(), result.views.end(), [](const Judgement::View& view) { return view.blind; }) -
+        result.views.begin();
 
     result.of_layer.resize(layers.size());
     for (std::size_t v = 0; v < result.views.size(); ++v) {
