@@ -73,7 +73,7 @@ TEST(Geodesic, MeshThatIsNotOrientableIsAlignedByItsSurface)
         for (int j = 0; j <= across; ++j) {
             const double u = 2 * pi * i / around;
             const double w = 0.6 * j / across - 0.3;
-            const double radius = 1 + w * std::cos(u / 2);
+            const double radius = 1 + 0.2 * std::cos(u - 0.7) + w * std::cos(u / 2); // no symmetry: it has a frame
             s.points.emplace_back(1.3 * radius * std::cos(u), radius * std::sin(u), w * std::sin(u / 2));
         }
     for (int i = 0; i < around; ++i)

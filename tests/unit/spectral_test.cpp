@@ -99,7 +99,7 @@ TEST(Spectral, ASymmetricBodyIsReadWhicheverWayItLies)
 {
     // Its third moments are what embedding and noise left: the frame's signs are a matter of chance.
     const EmbedOptions options = spectral(32);
-    const Key key("symmetric");
+    const Key key("symmetric body");
     Surface marked = symmetric_body(5);
     const EmbedReport embedded = embed(marked, key, options);
     EXPECT_EQ(embedded.detection_ratio, 1);
