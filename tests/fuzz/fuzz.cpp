@@ -158,6 +158,9 @@ void embed_and_detect(const Surface& before, const Key& key, Stream& draws)
     options.message = read_message("bits:10110010");
     DetectOptions reading;
     reading.carriers = options.carriers;
+    reading.carriers.quick = options.carriers.bits != 2; // a full reading, or a search for Bits, takes its time
+    if (options.carriers.bits == 0)
+        reading.carriers.bits = 64;
     reading.expected = {options.message};
     Surface after = before;
     try {
