@@ -109,6 +109,7 @@ std::pair<Outcome, std::string> try_to_mark(const Surface& cover, const Key& key
 std::pair<Outcome, std::string> run(const Surface& cover, const Key& key, const Job& job)
 {
     EmbedOptions options;
+    options.carriers.bits = 64;
     options.carriers.method = job.method;
     options.carriers.statistic = job.statistic;
     options.message = read_message("hex:0123456789abcdef");
