@@ -67,7 +67,7 @@ TEST_P(EveryMethod, ReadsItsMessageBack)
 
         const DetectReport found = read(stego, options);
         EXPECT_EQ(found.bits, report.bits);
-        EXPECT_EQ(format_message(found.bits), "museum");
+        EXPECT_EQ(found.finding, Verdict::Present);
         EXPECT_EQ(*found.detection_ratio, 1);
         const double orientations = options.carriers.method == Method::Spectral ? 4 : 1;
         EXPECT_NEAR(*found.p_value, orientations * std::ldexp(1.0, -64), std::ldexp(1.0, -100));
