@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Are p-values what they claim? Detections on unmarked meshes and on meshes marked with another key: how often p falls
-// to 1e-1, 1e-2, 1e-3, against the exact chance of that, which for 64 bits is a step below each.
+// Are the probabilities what they claim? Detections on unmarked meshes and on meshes marked with another key: how often
+// each falls to 1e-1, 1e-2 and 1e-3, beside what it may; how often something is called present or verified (never),
+// and how often the verdict speaks of another key.
 //
-// Each key draws its mask by itself and, in a row, looks at one mesh only: so a row's detections are independent. One
-// message is embedded and looked for throughout: what makes chance of the matches must be the key's mask alone.
-// On unmarked meshes L-M, QSP and Cho read alike: their rows are the same detections, and count once.
-// Usage: false_alarms [KEYS]    (900 without: more than 10,000 detections, each counted once)
+// Each key draws its mask by itself and, in a row, looks at one mesh only: so a row's detections are independent. Even
+// keys ask for one message in 64 carriers, as does the list of eight that each asks for too; odd keys ask for nothing
+// and leave the number of carriers open. On unmarked meshes L-M, QSP and Cho read alike, so L-M alone stands for them.
+// Usage: false_alarms [KEYS A ROW] [METHOD]    (1,100 without: some 20,000 keys)
 
 #include "support/load.h"
 #include "vcg_ext/base/error.h"
 #include "vcg_ext/carrier/statistic.h"
 #include "vcg_ext/method/methods.h"
-#include "vcg_ext/payload/binomial.h"
 #include "vcg_ext/watermark/watermark.h"
 
 #include <array>
@@ -24,91 +24,143 @@ using namespace vcg_ext;
 namespace {
 
 constexpr std::array<double, 3> levels = {1e-1, 1e-2, 1e-3};
-constexpr int bits = 64;
 
+/// How often one kind of probability was at or below each level.
 struct Tally {
-    int detections = 0;
-    int present = 0;
+    int count = 0;
     std::array<int, levels.size()> below{};
+
+    void add(double p)
+    {
+        ++count;
+        for (std::size_t i = 0; i < levels.size(); ++i)
+            below[i] += p <= levels[i];
+    }
+
+    Tally& operator+=(const Tally& other)
+    {
+        count += other.count;
+        for (std::size_t i = 0; i < levels.size(); ++i)
+            below[i] += other.below[i];
+        return *this;
+    }
 };
 
-/// The chance that a p-value is at most `level`: the largest binomial tail that is; times 4, where p is the best of 4.
-double claimed(double level, int tries)
+enum Claim { Named, Listed, AnyOf64, AnyOfAll, Presence, Claims };
+constexpr std::array<const char*, Claims> claims = {"expected", "list of 8", "key alone, 64", "key alone, Bits 0",
+                                                    "presence"};
+
+struct Row {
+    std::array<Tally, Claims> tallies;
+    int keys = 0;
+    int found = 0; ///< present or verified
+    int another_key = 0;
+
+    Row& operator+=(const Row& other)
+    {
+        for (std::size_t i = 0; i < tallies.size(); ++i)
+            tallies[i] += other.tallies[i];
+        keys += other.keys;
+        found += other.found;
+        another_key += other.another_key;
+        return *this;
+    }
+};
+
+std::vector<Message> list()
 {
-    for (int matches = 0; matches <= bits; ++matches)
-        if (tries * binomial_tail(bits, matches) <= level)
-            return tries * binomial_tail(bits, matches);
-    return 0;
+    std::vector<Message> result;
+    for (int i = 0; i < 8; ++i)
+        result.push_back(read_message("id:" + std::to_string(i)));
+    return result;
 }
 
-void print(const char* title, const Tally& tally, int tries)
+DetectReport look(const Surface& surface, const Key& key, CarrierOptions carriers, int bits,
+                  std::vector<Message> expected, Row& row)
 {
-    std::printf("%-28s %7d", title, tally.detections);
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-        const double chance = claimed(levels[i], tries);
-        const double expected = chance * tally.detections;
-        std::printf("   %5d %8.1f %5.1f", tally.below[i], expected,
-                    (tally.below[i] - expected) / std::sqrt(expected * (1 - chance)));
+    carriers.bits = bits;
+    DetectReport report = detect(surface, key, {carriers, std::move(expected)});
+    row.found += report.verified || report.present.value_or(false);
+    return report;
+}
+
+void look(const Surface& surface, const Key& key, const CarrierOptions& carriers, bool asks, Row& row)
+{
+    if (!asks) {
+        const DetectReport report = look(surface, key, carriers, 0, {}, row);
+        row.tallies[AnyOfAll].add(report.p_message);
+        row.another_key += report.finding == Verdict::AnotherKey;
+        return;
     }
-    std::printf("   %d\n", tally.present);
+    const DetectReport named = look(surface, key, carriers, 64, {read_message("id:4711")}, row);
+    row.tallies[Named].add(*named.p_value);
+    row.tallies[AnyOf64].add(named.p_message);
+    if (named.presence)
+        row.tallies[Presence].add(*named.presence);
+    row.another_key += named.finding == Verdict::AnotherKey;
+    const DetectReport listed = look(surface, key, carriers, 64, list(), row);
+    row.tallies[Listed].add(*listed.p_value);
+}
+
+void print(const std::string& title, const Row& row)
+{
+    std::printf("%s: %d keys, %d found, %d times \"another key\"\n", title.c_str(), row.keys, row.found,
+                row.another_key);
+    for (int claim = 0; claim < Claims; ++claim) {
+        const Tally& tally = row.tallies[claim];
+        if (tally.count == 0)
+            continue;
+        std::printf("  %-18s %6d", claims[claim], tally.count);
+        for (std::size_t i = 0; i < levels.size(); ++i)
+            std::printf("   %5d of %7.1f", tally.below[i], levels[i] * tally.count);
+        std::printf("\n");
+    }
+    std::fflush(stdout);
 }
 
 } // namespace
 
 int main(int count, char** arguments)
 {
-    const int number_of_keys = count > 1 ? std::atoi(arguments[1]) : 900;
+    const int keys = count > 1 ? std::atoi(arguments[1]) : 1100;
+    const std::string only = count > 2 ? arguments[2] : "";
     constexpr std::array<const char*, 5> names = {"cow.off", "femur.off", "bones.off", "blobby.off", "triceratops.off"};
-    const Message message = read_message("hex:0123456789abcdef");
-    std::vector<Key> keys;
-    for (int i = 0; i < number_of_keys; ++i)
-        keys.emplace_back("false alarm " + std::to_string(i));
     const Key owner("owner");
-
-    std::printf("%-28s %7s", "", "calls");
-    for (const double level : levels)
-        std::printf("   p<=%-5g expected sigma", level);
-    std::printf("   present\n");
+    Row all;
     for (const bool marked : {false, true})
-        for (const MethodRow& row : all_methods())
+        for (const MethodRow& method : all_methods())
             for (const Statistic statistic : {Statistic::Mean, Statistic::Variance}) {
-                const Method method = row.method;
-                if (!row.has_statistic && statistic == Statistic::Variance)
+                const bool twin = !marked && (method.method == Method::QSP || method.method == Method::Cho);
+                if (twin || (!method.has_statistic && statistic == Statistic::Variance) ||
+                    (!only.empty() && only != method.name))
                     continue;
-                Tally tally;
+                EmbedOptions options;
+                options.carriers.method = method.method;
+                options.carriers.statistic = statistic;
+                options.carriers.bits = 64;
+                options.message = read_message("id:4711");
+                Row row;
                 for (std::size_t mesh = 0; mesh < names.size(); ++mesh) {
-                    Surface surface;
+                    Surface surface = load(names[mesh]);
                     try {
-                        surface = load(names[mesh]);
-                        if (marked) {
-                            EmbedOptions options;
-                            options.carriers.method = method;
-                            options.carriers.statistic = statistic;
-                            options.message = message;
+                        if (marked)
                             embed(surface, owner, options);
-                        }
-                    } catch (const std::exception&) {
+                    } catch (const Error&) {
                         continue; // refused
                     }
-                    for (std::size_t k = mesh; k < keys.size(); k += names.size()) {
-                        DetectOptions options;
-                        options.carriers.method = method;
-                        options.carriers.statistic = statistic;
-                        options.expected = {message};
+                    for (int k = static_cast<int>(mesh); k < keys; k += names.size())
                         try {
-                            const DetectReport found = detect(surface, keys[k], options);
-                            ++tally.detections;
-                            tally.present += *found.present;
-                            for (std::size_t i = 0; i < levels.size(); ++i)
-                                tally.below[i] += *found.p_value <= levels[i];
+                            look(surface, Key("false alarm " + std::to_string(k)), options.carriers,
+                                 k / names.size() % 2 == 0, row);
+                            ++row.keys;
                         } catch (const Error&) {
                             // refused: no claim
                         }
-                    }
                 }
-                const std::string title = std::string(marked ? "another key, " : "unmarked, ") + name(method) + " " +
-                                          (row.has_statistic ? name(statistic) : "");
-                print(title.c_str(), tally, row.method == Method::Spectral ? 4 : 1);
-                std::fflush(stdout);
+                print(std::string(marked ? "another key, " : "unmarked, ") + method.name + " " +
+                          (method.has_statistic ? name(statistic) : ""),
+                      row);
+                all += row;
             }
+    print("all", all);
 }

@@ -59,7 +59,6 @@ TEST(Code, EveryLengthReadsBack)
                 const Code code(bits, carriers, kind);
                 const Bits message = drawn(stream, bits);
                 const Bits word = code.encode(message);
-                EXPECT_EQ(code.packed(message), packed_bits(word));
                 EXPECT_EQ(code.decode(clean(word), 2), message) << bits << " in " << carriers;
             }
 }
@@ -170,20 +169,6 @@ TEST(Code, WeightsSumToOne)
     }
     EXPECT_EQ(hypotheses(64).front().bits, 32);
     EXPECT_EQ(hypotheses(64).size(), 6u); // 32 twice, 24, 40, 16, 8
-}
-
-TEST(Code, CarrierCounts)
-{
-    for (const int first : {0, 64, 256, 100}) {
-        const std::vector<CarrierCount> counts = carrier_counts(first);
-        EXPECT_EQ(counts.size(), first == 100 ? 10u : 9u);
-        EXPECT_EQ(counts.front().carriers, first == 0 ? 64 : first);
-        EXPECT_EQ(counts.front().weight, 0.5);
-        double sum = 0;
-        for (const CarrierCount& count : counts)
-            sum += count.weight;
-        EXPECT_NEAR(sum, 1, 1e-12);
-    }
 }
 
 TEST(Code, WhatTheKeyAloneCanProve)

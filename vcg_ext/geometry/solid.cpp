@@ -150,8 +150,8 @@ std::vector<int> sew(const Points& points, const std::vector<EdgeUse>& edges, do
     std::nth_element(lengths.begin(), lengths.begin() + lengths.size() / 2, lengths.end());
     // Sewing must not eat the boundary's own edges.
     const double near = std::min(1e-5 * diagonal, lengths[lengths.size() / 2] / 4);
-    if (!(near > 0))
-        return {};
+    if (!(near * 1e15 > diagonal))
+        return {}; // nothing lies together that doubles can tell apart
     const auto cell = [](std::int64_t x, std::int64_t y, std::int64_t z) {
         return static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15U ^
                static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4FU ^
@@ -162,7 +162,7 @@ std::vector<int> sew(const Points& points, const std::vector<EdgeUse>& edges, do
     std::iota(head.begin(), head.end(), 0);
     bool any = false;
     for (const int v : rim) {
-        const Eigen::Array3d at = (points[v] / near).array().floor();
+        const Eigen::Array3d at = ((points[v] - points[rim.front()]) / near).array().floor();
         const std::int64_t x = static_cast<std::int64_t>(at[0]);
         const std::int64_t y = static_cast<std::int64_t>(at[1]);
         const std::int64_t z = static_cast<std::int64_t>(at[2]);

@@ -80,8 +80,6 @@ int step(int bits)
     return bits <= 128 ? 8 : bits <= 256 ? 16 : bits <= 512 ? 32 : 64;
 }
 
-} // namespace
-
 Words packed_bits(const Bits& bits)
 {
     Words words((bits.size() + 63) / 64, 0);
@@ -89,6 +87,8 @@ Words packed_bits(const Bits& bits)
         words[i / 64] |= std::uint64_t{bits[i] != 0} << i % 64;
     return words;
 }
+
+} // namespace
 
 Code::Code(int bits, int carriers, Kind kind) : code_(polar_code(bits, carriers))
 {
@@ -191,20 +191,6 @@ int recommended_carriers(const Message& message)
     throw Error("The message is too long: " + need(message) + ", and up to " +
                 std::to_string(message.kind == Kind::Bits ? ladder.back() : ladder.back() / 2) +
                 " can be hidden so that they survive. Shorten it.");
-}
-
-std::vector<CarrierCount> carrier_counts(int first)
-{
-    std::vector<int> order;
-    if (first != 0)
-        order.push_back(first);
-    for (const int carriers : ladder)
-        if (carriers != first)
-            order.push_back(carriers);
-    std::vector<CarrierCount> result;
-    for (std::size_t i = 0; i < order.size(); ++i)
-        result.push_back({order[i], weight_of(i, order.size())});
-    return result;
 }
 
 double clean_log_p(const Message& message, int carriers)

@@ -32,14 +32,13 @@ public:
     /// \throw Error where the message is longer than the code's
     [[nodiscard]] Bits encode(const Bits& message) const;
 
-    /// The same by packed_bits(): to compare many.
-    [[nodiscard]] std::vector<std::uint64_t> packed(const Bits& message) const;
-
     /// The message that agrees best. \param soft one a carrier, positive for 1, 0 for an erasure; \param list paths
     [[nodiscard]] Bits decode(const std::vector<double>& soft, int list = 32) const;
 
 private:
-    using Words = std::vector<std::uint64_t>;
+    using Words = std::vector<std::uint64_t>; ///< bits in words of 64, from the lowest
+
+    [[nodiscard]] Words packed(const Bits& message) const;
 
     PolarCode code_;
     Words offset_;           ///< of all words of this length and kind
@@ -52,9 +51,6 @@ private:
     };
     std::vector<Step> inverse_;
 };
-
-/// Bits in words of 64, from the lowest.
-[[nodiscard]] std::vector<std::uint64_t> packed_bits(const Bits& bits);
 
 /// One way to read so many carriers.
 struct Hypothesis {
@@ -78,17 +74,6 @@ struct Hypothesis {
 /// The least of recommended_numbers() that is at least twice the message's bits (raw bits: that is at least their
 /// number). \throw Error where there is none: says what the message needs
 [[nodiscard]] int recommended_carriers(const Message& message);
-
-/// A number of carriers that a detector tries.
-struct CarrierCount {
-    int carriers = 0;
-    double weight = 0; ///< above 0; all of them sum to 1
-};
-
-/// What a detector tries that does not know the number of carriers: the recommended ones from the least, and before
-/// them `first`, where it is not 0: the expected message's own. The i-th weighs 1 / (i (i + 1)): the more carriers, the
-/// less a weight matters.
-[[nodiscard]] std::vector<CarrierCount> carrier_counts(int first = 0);
 
 /// log10 of the best that a reader with the key alone can ever get for a message of this length: all signs right.
 /// 1e-6 is out of reach where it is above -6.

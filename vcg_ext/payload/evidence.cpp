@@ -118,29 +118,9 @@ double agreement(const std::vector<unsigned char>& coded, const std::vector<doub
     return sum;
 }
 
-double log_any_of(double log10_p, double count)
-{
-    return std::min(0.0, log10_p + std::log10(std::max(1.0, count)));
-}
-
 double log_any_message(double log10_p, int bits)
 {
     return std::min(0.0, log10_p + bits * log10_2);
-}
-
-double log_best_of(const std::vector<Weighted>& ways)
-{
-    double sum = 0;
-    double best = 0;
-    for (const Weighted& way : ways) {
-        if (!(way.weight > 0))
-            throw Error("Each way of reading needs a weight above 0.");
-        sum += way.weight;
-        best = std::min(best, way.log10_p - std::log10(way.weight));
-    }
-    if (sum > 1 + 1e-9)
-        throw Error("The weights of the ways of reading must sum to 1 at most.");
-    return best;
 }
 
 } // namespace vcg_ext

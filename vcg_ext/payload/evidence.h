@@ -47,20 +47,7 @@ private:
 /// Sum of c_k l_k with c_k = +1 for a coded bit 1 and -1 for 0. \throw Error where the lengths differ
 [[nodiscard]] double agreement(const std::vector<unsigned char>& coded, const std::vector<double>& soft);
 
-/// That any of `count` things agrees so well: log10 min(1, count p). Bonferroni.
-[[nodiscard]] double log_any_of(double log10_p, double count);
-
 /// That any of the 2^bits messages agrees so well: log10 min(1, 2^bits p).
 [[nodiscard]] double log_any_message(double log10_p, int bits);
-
-/// One way of reading of several, and the part of the doubt that it was given before looking.
-struct Weighted {
-    double log10_p = 0;
-    double weight = 1; ///< over all ways of reading they sum to 1 at most
-};
-
-/// log10 min(1, min_i p_i / w_i): by the union bound a p-value whatever depends on what.
-/// \throw Error where a weight is not positive or they sum to more than 1
-[[nodiscard]] double log_best_of(const std::vector<Weighted>& ways);
 
 } // namespace vcg_ext

@@ -130,6 +130,14 @@ struct Trial {
     }
 };
 
+/// Whether there is nothing that is too long for so many carriers alone.
+bool one_fits(const std::vector<Message>& expected, int carriers)
+{
+    return expected.empty() || std::any_of(expected.begin(), expected.end(), [carriers](const Message& message) {
+               return static_cast<int>(message.bits.size()) <= carriers;
+           });
+}
+
 Trial try_count(const Surface& surface, const Key& key, const DetectOptions& options, const Count& count)
 {
     Trial trial;
@@ -138,13 +146,6 @@ Trial try_count(const Surface& surface, const Key& key, const DetectOptions& opt
     carriers.bits = count.carriers;
     carriers.quick = count.quick;
     trial.layers = read_layers(surface, key, carriers, trial.trim, trial.warnings);
-    std::vector<Message> fitting;
-    for (const Message& message : options.expected)
-        if (static_cast<int>(message.bits.size()) <= count.carriers)
-            fitting.push_back(message);
-    if (options.expected.size() != fitting.size() && (options.carriers.bits > 0 || fitting.empty()))
-        throw Error("The expected message does not fit: " + need(options.expected.front()) + ", but Bits is " +
-                    std::to_string(count.carriers) + ". Bits must be that of embedding; 0 finds it.");
     trial.judgement = judge(trial.layers, count.carriers, options.expected);
     return trial;
 }
@@ -233,16 +234,17 @@ DetectReport detect(const Surface& surface, const Key& key, const DetectOptions&
     const Welded welded = checked_weld(surface);
     const bool asked = !options.expected.empty();
     const std::vector<Count> counts = counts_to_try(options);
+    if (std::none_of(counts.begin(), counts.end(),
+                     [&](const Count& count) { return one_fits(options.expected, count.carriers); }))
+        throw Error("The expected message does not fit: " + need(options.expected.front()) + ", but Bits is " +
+                    std::to_string(counts.front().carriers) + ". Bits must be that of embedding; 0 finds it.");
 
     std::optional<Trial> best;
     double log10_any = 0;
     double log10_expected = 0;
     for (std::size_t i = 0; i < counts.size(); ++i) {
         report(progress, 10 + 80 * static_cast<int>(i) / static_cast<int>(counts.size()), "Reading");
-        const bool fits = std::all_of(options.expected.begin(), options.expected.end(), [&](const Message& message) {
-            return static_cast<int>(message.bits.size()) <= counts[i].carriers;
-        });
-        if (!fits && i > 0)
+        if (!one_fits(options.expected, counts[i].carriers))
             continue;
         Trial trial = try_count(welded.surface, key, options, counts[i]);
         log10_any = std::min(log10_any, trial.log10_p(false));

@@ -11,6 +11,7 @@
 #include "secrets.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace vcg_ext {
 
@@ -59,20 +60,23 @@ void take_up(const Marking& marking, EmbedReport& result)
 }
 
 /// All layers of the method, the one on top of the other. \return the positions
-Points put_on(const Surface& surface, const Key& key, const EmbedOptions& options, const Bits& coded,
-              EmbedReport& result, const Progress& progress)
+Points put_on(const Cover& cover, const Key& key, const EmbedOptions& options, const Bits& coded, EmbedReport& result,
+              const Progress& progress)
 {
     const MethodRow& wanted = row_of(options.carriers.method);
-    Surface marked = surface;
+    Surface marked;
+    std::optional<Cover> below;
     std::string refusals;
     for (std::size_t i = 0; i < wanted.layers.size(); ++i) {
         const auto& [method, strength] = wanted.layers[i];
-        const Cover cover(marked);
+        if (i == 1)
+            below.emplace(marked);
         try {
-            Marking marking = mark(cover, key, row_of(method), options, coded, strength, result.trim, progress);
+            Marking marking = mark(below ? *below : cover, key, row_of(method), options, coded, strength, result.trim,
+                                   progress);
             result.layers.push_back(method);
             take_up(marking, result);
-            marked.points = std::move(marking.kept.points);
+            marked = {std::move(marking.kept.points), cover.triangles};
         } catch (const Cancelled&) {
             throw;
         } catch (const Error& error) {
@@ -155,7 +159,8 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     result.bits = encode(options.message, options.carriers.bits);
     result.strength = options.placement.strength;
     result.carriers = options.carriers.bits;
-    Points placed = put_on(welded.surface, key, options, result.bits, result, progress);
+    const Cover cover(welded.surface);
+    Points placed = put_on(cover, key, options, result.bits, result, progress);
     result.seconds["placement"] = watch.lap();
 
     report(progress, 85, "Checking blind");
@@ -167,10 +172,9 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     result.seconds["check"] = watch.lap();
 
     report(progress, 95, "Measuring");
-    const VertexFaces around = vertex_faces(static_cast<int>(stored.size()), welded.surface.triangles);
     result.moved_vertices = moved_count(surface.points, marked.points);
     result.max_displacement = max_displacement(surface.points, marked.points);
-    result.mrms = local_mrms(welded.surface.points, stored, welded.surface.triangles, around);
+    result.mrms = local_mrms(welded.surface.points, stored, welded.surface.triangles, cover.around);
     result.mrms_relative = result.mrms / bounding_diagonal(welded.surface);
     result.recipe = recipe_of(options);
     warn(options, result);

@@ -158,10 +158,15 @@ Judgement judge(const std::vector<LayerReading>& layers, int carriers, const std
     Judgement::Match match;
     match.log10_p = match.runner_up = 0;
     double best = 1;
+    Bits best_coded;
     result.match_of_layer.assign(layers.size(), 0);
     std::size_t loudest = result.view;
     for (std::size_t c = 0; c < expected.size(); ++c) {
+        if (static_cast<int>(expected[c].bits.size()) > carriers)
+            continue; // no such mesh can hold it; it counts all the same
         const Bits coded = codes.encode(expected[c]);
+        if (coded == best_coded)
+            continue; // the same line again is no runner-up
         double p = 0;
         std::size_t at = 0;
         for (std::size_t v = 0; v < result.views.size(); ++v) {
@@ -191,6 +196,7 @@ Judgement judge(const std::vector<LayerReading>& layers, int carriers, const std
         if (p < best) {
             match.runner_up = std::min(0.0, best + many);
             best = p;
+            best_coded = coded;
             match.candidate = c;
             loudest = at;
         } else {

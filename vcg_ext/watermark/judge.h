@@ -54,8 +54,10 @@ struct Judgement {
 /// with m^2 = mean z^2 - 1, at least 0, which looks at magnitudes alone.
 [[nodiscard]] std::vector<Judgement::View> views_of(const std::vector<LayerReading>& layers);
 
-/// Weighs expected messages, and decodes what is there without them.
+/// Weighs expected messages, and decodes what is there without them. Of a list, messages of more bits than carriers are
+/// passed over, but count among the candidates.
 /// \param carriers of each layer
+/// \param expected one of them at least fits, or there is none
 [[nodiscard]] Judgement judge(const std::vector<LayerReading>& layers, int carriers,
                               const std::vector<Message>& expected);
 
