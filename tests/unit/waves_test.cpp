@@ -5,6 +5,7 @@
 #include "vcg_ext/attack/attack.h"
 #include "vcg_ext/base/parallel.h"
 #include "vcg_ext/base/weld.h"
+#include "vcg_ext/carrier/wave_spectra.h"
 #include "vcg_ext/geometry/wave_sums.h"
 #include "vcg_ext/key/random.h"
 #include "vcg_ext/method/wave_embedding.h"
@@ -85,8 +86,8 @@ struct Found {
 
 Found find(const Surface& surface, const Bits& coded, const Key& key = test_key(), const WaveReadOptions& options = {})
 {
-    const WaveReading reading =
-        read_waves(wave_body(weld(surface).surface), wave_plan(key, static_cast<int>(coded.size())), options);
+    WaveSpectra spectra(wave_body(weld(surface).surface));
+    const WaveReading reading = read_waves(spectra, wave_plan(key, static_cast<int>(coded.size())), options);
     const WavePresence presence = wave_presence(reading);
     return {presence, wave_match(reading, presence, coded)};
 }
@@ -119,7 +120,8 @@ TEST(WaveGrid, WeightsSumToOne)
             sum += std::exp(weight);
     EXPECT_NEAR(sum, 1, 1e-9);
     double views = 0;
-    for (const WaveView& view : read_waves(wave_body(body(3)), wave_plan(test_key(), 8)).views)
+    WaveSpectra spectra(wave_body(body(3)));
+    for (const WaveView& view : read_waves(spectra, wave_plan(test_key(), 8)).views)
         views += std::exp(view.log_weight);
     EXPECT_NEAR(views, 1, 1e-9);
 }
@@ -233,7 +235,8 @@ TEST(Waves, SurviveRemeshingAndSmoothing)
 TEST(Waves, SoftValuesHaveTheSignsOfTheBits)
 {
     const Marked& marked = marked_body();
-    const WaveReading reading = read_waves(wave_body(marked.stego), wave_plan(test_key(), waves));
+    WaveSpectra spectra(wave_body(marked.stego));
+    const WaveReading reading = read_waves(spectra, wave_plan(test_key(), waves));
     const WavePresence presence = wave_presence(reading);
     const std::vector<WaveSoft> ways = wave_ways(reading, presence, 10);
     ASSERT_FALSE(ways.empty());
@@ -244,6 +247,25 @@ TEST(Waves, SoftValuesHaveTheSignsOfTheBits)
     for (const WaveSoft& way : ways)
         sum += way.weight;
     EXPECT_LE(sum, 1 + 1e-9);
+}
+
+TEST(WaveSpectra, ReadTheSameWhateverWasReadBefore)
+{
+    WaveSpectra grown(wave_body(marked_body().stego));
+    for (const int count : {8, 32, 20}) {
+        WaveSpectra fresh(wave_body(marked_body().stego));
+        const WaveReading first = read_waves(fresh, wave_plan(test_key(), count));
+        const WaveReading again = read_waves(grown, wave_plan(test_key(), count));
+        ASSERT_EQ(first.views.size(), again.views.size());
+        for (std::size_t i = 0; i < first.views.size(); ++i) {
+            EXPECT_EQ(first.views[i].phase, again.views[i].phase);
+            EXPECT_EQ(first.views[i].bend, again.views[i].bend);
+            EXPECT_EQ(first.views[i].undone, again.views[i].undone);
+        }
+    }
+    const WaveReading other = read_waves(grown, wave_plan(Key("another"), 8));
+    WaveSpectra fresh(wave_body(marked_body().stego));
+    EXPECT_EQ(other.views[0].phase, read_waves(fresh, wave_plan(Key("another"), 8)).views[0].phase);
 }
 
 TEST(Waves, ThreadsHaveNoPartInTheResult)
@@ -301,7 +323,6 @@ TEST(Waves, BoundsHoldWhereDithersAndMasksAreDrawnAnew)
     WaveReadOptions options;
     options.rungs = 0;
     options.mirrored = false;
-    options.orientations = 1;
     const int draws = 10000; // of dithers; and half as many masks
     WaveGrid small;          // the bounds' logic at a cost that allows many draws
     small.step = wave_grid().step;
@@ -318,7 +339,8 @@ TEST(Waves, BoundsHoldWhereDithersAndMasksAreDrawnAnew)
 
     for (const bool is_marked : {false, true}) {
         const Surface& surface = is_marked ? marked.stego : marked.cover;
-        WaveReading reading = read_waves(wave_body(surface), wave_plan(test_key(), waves), options);
+        WaveSpectra spectra(wave_body(surface), 1);
+        WaveReading reading = read_waves(spectra, wave_plan(test_key(), waves), options);
         reading.grid = &small;
         const WavePresence own = wave_presence(reading);
         const std::vector<WaveView> views = reading.views;

@@ -3,11 +3,12 @@
 
 #include "../base/error.h"
 #include "../base/parallel.h"
+#include "../base/vectorized.h"
 #include "../geometry/turns.h"
 #include "../geometry/wave_sums.h"
 #include "../key/random.h"
 #include "../payload/sum_tails.h"
-#include "wave_flows.h"
+#include "wave_spectra.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,16 +19,7 @@ namespace vcg_ext {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr double shortest = 10; ///< |q|: waves of .63 r, some .14 of a diagonal
-constexpr double longest = 20;
 constexpr double never = std::numeric_limits<double>::infinity();
-
-/// Body turned by half a turn about one of its axes, or not at all: signs of the coordinates.
-Point signs_of(int orientation)
-{
-    const Point signs[4] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-    return signs[orientation];
-}
 
 /// log(exp(a) + exp(b))
 double log_add(double a, double b)
@@ -36,74 +28,8 @@ double log_add(double a, double b)
     return high == -never ? high : high + std::log1p(std::exp(std::min(a, b) - high));
 }
 
-/// Transforms at the waves of all orientations, one after the other.
-std::vector<std::complex<double>> transform_of(const WaveBody& body, const Points& points, const WavePlan& plan,
-                                               int orientations)
-{
-    Points waves;
-    for (int o = 0; o < orientations; ++o)
-        for (const Point& q : plan.vectors)
-            waves.emplace_back(q.cwiseProduct(signs_of(o)));
-    std::vector<std::complex<double>> transform = solid_transform(points, body.topology.triangles, waves);
-    if (body.frame.measure < 0) // inside out
-        for (std::complex<double>& value : transform)
-            value = -value;
-    return transform;
-}
-
-/// Canonical coordinates of `points`, which are canonical ones of the body, displaced; none where they bound nothing.
-Points canonical_again(const WaveBody& body, const Points& points)
-{
-    Frame frame = solid_frame(points, body.topology.triangles);
-    if (frame.measure * body.frame.measure <= 0)
-        return {};
-    align_axes(frame, Eigen::Matrix3d::Identity()); // the same way round as before
-    const double r = ball_radius(frame);
-    Points result(points.size());
-    for_each_index(static_cast<int>(points.size()),
-                   [&](int v) { result[v] = frame.axes.transpose() * (points[v] - frame.centre) / r; });
-    return result;
-}
-
-/// Derivative of the transform where the surface moves along its normals by `flow` (RMS 1).
-std::vector<std::complex<double>> derivative(const WaveBody& body, const Points& normals,
-                                             const std::vector<double>& flow,
-                                             const std::vector<std::complex<double>>& at_rest, const WavePlan& plan,
-                                             int orientations)
-{
-    constexpr double step = 2e-4;
-    Points points = body.points;
-    for_each_index(body.topology.sites, [&](int v) { points[v] += step * flow[v] * normals[v]; });
-    place_apexes(body.topology, points);
-    points = canonical_again(body, points);
-    if (points.empty())
-        return std::vector<std::complex<double>>(at_rest.size());
-    std::vector<std::complex<double>> transform = transform_of(body, points, plan, orientations);
-    for (std::size_t i = 0; i < transform.size(); ++i)
-        transform[i] = (transform[i] - at_rest[i]) / step;
-    return transform;
-}
-
-constexpr double smoothing_lambda = 0.5;
-constexpr int series_terms = 6;
-/// On finer meshes rounds of smoothing move nothing that `bend` and `relax` would not describe.
-constexpr int most_sites_undone = 400000;
-constexpr double most_undone = 8; ///< lambda k: 16 rounds of one half
-
-/// lambda k at which smoothing is undone. Phases between are interpolated, within each run of four gaps by itself:
-/// where the mesh is rough, the series runs away soon, and must not spoil what lies before.
-constexpr std::array<double, 17> nodes = {0, 0.375, 0.75, 1.125, 1.5,   2,    2.5,   3, 3.5,
-                                          4, 4.5,   5,    5.5,   6.125, 6.75, 7.375, 8};
-constexpr int gaps = 4;
-
-/// Area that a surface may reach, over what it is: undoing more smoothing than there was crumples it, at some length.
-constexpr double most_area = 3;
-
-double area_of(const WaveBody& body, const Points& points)
-{
-    return ordered_sum(body.topology.surface_triangles, 0.0,
-                       [&](int f) { return scaled_normal(points, body.topology.triangles[f]).norm() / 2; });
-}
+constexpr int gaps = WaveSpectra::gaps;
+constexpr auto nodes = WaveSpectra::nodes;
 
 /// Lagrange's weights at `s` of the nodes `first` to `first` + gaps.
 std::array<double, gaps + 1> interpolation(double s, int first)
@@ -116,22 +42,6 @@ std::array<double, gaps + 1> interpolation(double s, int first)
                 weights[i] *= (s - nodes[first + j]) / (nodes[first + i] - nodes[first + j]);
     }
     return weights;
-}
-
-/// Transforms of the body with smoothing undone, at the nodes; none where that tears it.
-std::vector<std::vector<std::complex<double>>>
-transforms_before_smoothing(const WaveBody& body, const WavePlan& plan, int orientations,
-                            const std::vector<std::complex<double>>& rest)
-{
-    const std::vector<Points> powers = umbrella_powers(body, series_terms);
-    std::vector<std::vector<std::complex<double>>> result{rest};
-    for (std::size_t i = 1; i < nodes.size(); ++i) {
-        const Points points = canonical_again(body, before_smoothing(body, powers, smoothing_lambda, nodes[i]));
-        if (points.empty() || area_of(body, points) > most_area * body.area)
-            return result;
-        result.push_back(transform_of(body, points, plan, orientations));
-    }
-    return result;
 }
 
 double rms(const std::vector<double>& x)
@@ -171,7 +81,7 @@ public:
     }
 
     /// Sum of cos^2, and of `signs[k]` cos; then a step of u.
-    void take(const double* signs, double& squares, double& matched)
+    VCG_EXT_VECTORIZED void take(const double* signs, double& squares, double& matched)
     {
         double a[lanes] = {};
         double b[lanes] = {};
@@ -269,7 +179,7 @@ WaveGrid make_grid()
     for (int i = 1; i <= 160; ++i) {
         WaveGrid::Row row;
         row.undone = i - 1;
-        grid.undone.push_back(i * most_undone / 160);
+        grid.undone.push_back(i * nodes.back() / 160);
         row.first = -2 * grid.step;
         for (int j = -2; j <= 2; ++j)
             row.log_weight.push_back((j == 0 ? 1 : 0.25) / (1 + grid.undone.back()));
@@ -288,9 +198,9 @@ WavePlan wave_plan(const Key& key, int count)
     while (plan.count() < count) {
         Point q;
         for (double& x : q)
-            x = longest * (2 * uniform(vectors) - 1);
+            x = longest_wave * (2 * uniform(vectors) - 1);
         const double squared = q.squaredNorm();
-        if (squared >= shortest * shortest && squared <= longest * longest)
+        if (squared >= shortest_wave * shortest_wave && squared <= longest_wave * longest_wave)
             plan.vectors.push_back(q);
     }
     Stream phases = key.stream("wave-phases");
@@ -321,6 +231,12 @@ WaveBody wave_body(const Surface& surface)
     return body;
 }
 
+double area_of(const WaveBody& body, const Points& points)
+{
+    return ordered_sum(body.topology.surface_triangles, 0.0,
+                       [&](int f) { return scaled_normal(points, body.topology.triangles[f]).norm() / 2; });
+}
+
 double wave_step(const WaveBody& body, double strength, int waves, int* rung)
 {
     const double step =
@@ -349,19 +265,17 @@ const WaveGrid& wave_grid()
     return grid;
 }
 
-WaveReading read_waves(const WaveBody& body, const WavePlan& plan, const WaveReadOptions& options)
+WaveReading read_waves(WaveSpectra& spectra, const WavePlan& plan, const WaveReadOptions& options)
 {
-    const int orientations = options.orientations;
+    const WaveBody& body = spectra.body();
+    const int orientations = spectra.orientations();
     const std::size_t count = plan.vectors.size();
-    const std::vector<std::complex<double>> rest = transform_of(body, body.points, plan, orientations);
-    std::vector<std::vector<std::complex<double>>> flows;
-    std::vector<std::vector<std::complex<double>>> before;
+    const WaveSpectra::Spectrum& rest = spectra.at_rest(plan);
+    std::array<WaveSpectra::Spectrum, 2> flows;
+    std::vector<const WaveSpectra::Spectrum*> before;
     if (!options.at_rest_only) {
-        const Points normals = site_normals(body);
-        for (const std::vector<double>& flow : processing_flows(body, normals))
-            flows.push_back(derivative(body, normals, flow, rest, plan, orientations));
-        if (body.topology.sites <= most_sites_undone)
-            before = transforms_before_smoothing(body, plan, orientations, rest);
+        flows = spectra.flows(plan);
+        before = spectra.unsmoothed(plan);
     }
 
     int own_rung = 0;
@@ -382,10 +296,11 @@ WaveReading read_waves(const WaveBody& body, const WavePlan& plan, const WaveRea
             view.step = std::exp2(view.rung / 2.0);
             const double share = ways_round == 1 ? 1 : way == 0 ? 0.5 : 0.5 / (ways_round - 1);
             view.log_weight = std::log(share * std::exp2(-std::abs(j)) / rung_sum);
-            const auto part = [&](const std::vector<std::complex<double>>& all) {
-                const auto begin = all.begin() + static_cast<std::ptrdiff_t>(view.orientation * count);
-                std::vector<double> values =
-                    wave_values_of({begin, begin + static_cast<std::ptrdiff_t>(count)}, plan.phases, view.mirrored);
+            const auto part = [&](const WaveSpectra::Spectrum& all) {
+                std::vector<std::complex<double>> own(count);
+                for (std::size_t k = 0; k < count; ++k)
+                    own[k] = all[k * orientations + view.orientation];
+                std::vector<double> values = wave_values_of(own, plan.phases, view.mirrored);
                 for (double& value : values)
                     value /= view.step;
                 return values;
@@ -411,8 +326,8 @@ WaveReading read_waves(const WaveBody& body, const WavePlan& plan, const WaveRea
                     view.relax[k] -= dot / square * view.bend[k];
             to_half_a_period(view.relax);
             std::vector<std::vector<double>> at;
-            for (const auto& transform : before)
-                at.push_back(part(transform));
+            for (const WaveSpectra::Spectrum* spectrum : before)
+                at.push_back(part(*spectrum));
             for (const double s : reading.grid->undone) {
                 int first = 0;
                 while (first + gaps + 1 < static_cast<int>(nodes.size()) && nodes[first + gaps] < s)

@@ -5,8 +5,12 @@
 #include "../payload/message.h"
 
 #include <complex>
+#include <vector>
 
 namespace vcg_ext {
+
+constexpr double shortest_wave = 10; ///< |q|: waves of .63 r, some .14 of a diagonal
+constexpr double longest_wave = 20;
 
 /// The waves that carry the bits, one each, as both sides draw them from the key. Bit b of wave k asks for
 /// m_k = D (integer + dither_k + b / 2), where m_k = 1 / (4 pi) * integral over the solid of cos(q_k . x + phase_k).
@@ -32,6 +36,9 @@ struct WaveBody {
 
 /// \pre the surface is welded  \throw Error where it encloses nothing
 [[nodiscard]] WaveBody wave_body(const Surface& surface);
+
+/// Of the surface without its fans, were its points there.
+[[nodiscard]] double area_of(const WaveBody& body, const Points& points);
 
 /// The step D in which a displacement of `strength` (RMS over the diagonal) is to be expected, on a ladder of sqrt 2:
 /// D = strength sqrt(12) A r^-3 diagonal / (4 pi) / sqrt(2 K). A wave of amplitude a over the whole surface A changes
@@ -77,6 +84,8 @@ struct WaveGrid {
 
 [[nodiscard]] const WaveGrid& wave_grid();
 
+class WaveSpectra; // wave_spectra.h
+
 /// All that the detector has to know of a body under a key.
 struct WaveReading {
     std::vector<WaveView> views;
@@ -86,7 +95,6 @@ struct WaveReading {
 struct WaveReadOptions {
     double strength = 1e-4; ///< that the mark was made with, as far as the reader knows
     int rungs = 1;          ///< how many rungs above and below its own it tries
-    int orientations = 4;   ///< 1: only as the third moments say
     bool mirrored = true;   ///< mirror images too
     /// Only the body as it is, without what processing does to it: the weights are the same, so p is as true, and no
     /// lower. Some six times as fast, so worth a try first.
@@ -95,7 +103,7 @@ struct WaveReadOptions {
 
 /// Lays the body into the waves in every way, and computes from the body itself how processing shifts its phases.
 /// Never looks at bits.
-[[nodiscard]] WaveReading read_waves(const WaveBody& body, const WavePlan& plan, const WaveReadOptions& options = {});
+[[nodiscard]] WaveReading read_waves(WaveSpectra& spectra, const WavePlan& plan, const WaveReadOptions& options = {});
 
 /// A view and a point of its grid.
 struct WaveWay {

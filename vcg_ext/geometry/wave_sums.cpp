@@ -2,6 +2,7 @@
 #include "wave_sums.h"
 
 #include "../base/parallel.h"
+#include "../base/vectorized.h"
 #include "turns.h"
 
 #include <algorithm>
@@ -144,7 +145,9 @@ namespace cells {
 constexpr int degree = 4; ///< of the monomials of x
 constexpr int monomials = 35;
 constexpr int products = 55; ///< monomials of q from degree 1 to 5
-constexpr int lanes = 8;
+constexpr int lanes = 4;
+/// One value a wave, as the compiler's own vector: it does not see by itself which loop to vectorise here.
+using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
 constexpr double size = 0.8; ///< edge of a cell over the shortest wave's 1 / |q|
 
 struct Exponents {
@@ -196,11 +199,11 @@ struct Table {
 
 constexpr Table table;
 
-/// Products of each group of waves, wave by wave within: [group][product][lane].
-std::vector<double> wave_products(const Columns& q)
+/// Products of each group of waves: [group][product].
+std::vector<Lanes> wave_products(const Columns& q)
 {
     const std::size_t groups = (q.count + lanes - 1) / lanes;
-    std::vector<double> result(groups * products * lanes, 0);
+    std::vector<Lanes> result(groups * products, Lanes{});
     for (std::size_t k = 0; k < q.count; ++k) {
         double power[3][degree + 2];
         for (int axis = 0; axis < 3; ++axis) {
@@ -210,7 +213,7 @@ std::vector<double> wave_products(const Columns& q)
                 power[axis][e] = power[axis][e - 1] * base;
         }
         for (int i = 0; i < products; ++i)
-            result[(k / lanes * products + i) * lanes + k % lanes] =
+            result[k / lanes * products + i][k % lanes] =
                 power[0][of_q[i].x] * power[1][of_q[i].y] * power[2][of_q[i].z];
     }
     return result;
@@ -263,17 +266,16 @@ struct Sources {
 };
 
 /// Adds exp(i q . centre) times the polynomial, for all waves.
-void add(const Columns& q, const std::vector<double>& powers, const Point& centre,
-         const std::array<double, products>& c, Sums& sums)
+void add(const Columns& q, const std::vector<Lanes>& powers, const Point& centre, const std::array<double, products>& c,
+         Sums& sums)
 {
     for (std::size_t first = 0; first < q.count; first += lanes) {
-        const double* __restrict power = powers.data() + first * products;
-        double real[lanes] = {};
-        double imaginary[lanes] = {};
-        const auto take = [&](double* __restrict to, int begin, int end) {
+        const Lanes* power = powers.data() + first / lanes * products;
+        Lanes real{};
+        Lanes imaginary{};
+        const auto take = [&](Lanes& to, int begin, int end) {
             for (int i = begin; i < end; ++i)
-                for (int j = 0; j < lanes; ++j)
-                    to[j] += c[i] * power[i * lanes + j];
+                to += c[i] * power[i];
         };
         take(real, 0, 3); // degrees 1, 3 and 5 of q are even ones of x
         take(imaginary, 3, 9);
@@ -352,7 +354,8 @@ double spread_of(const Points& points, const Triangle& t, double largest)
                                          (points[t[2]] - centre).squaredNorm()}));
 }
 
-void add_triangle(const Columns& q, const Points& points, const Triangle& t, double spread, Sums& sums)
+VCG_EXT_VECTORIZED void add_triangle(const Columns& q, const Points& points, const Triangle& t, double spread,
+                                     Sums& sums)
 {
     const Point centre = (points[t[0]] + points[t[1]] + points[t[2]]) / 3;
     const Point a = points[t[0]] - centre;
@@ -368,16 +371,46 @@ void add_triangle(const Columns& q, const Points& points, const Triangle& t, dou
         add_mixed(q, centre, a, b, n, sums);
 }
 
+/// Adds the cell's small triangles, all of them together.
+VCG_EXT_VECTORIZED void add_cell(const Columns& q, const std::vector<cells::Lanes>& powers, const Points& points,
+                                 const std::vector<Triangle>& triangles, const cells::Grid& grid, int cell,
+                                 double largest, Sums& sums)
+{
+    const Point& centre = grid.centres[cell];
+    cells::Sources sources;
+    for (int j = grid.first[cell]; j < grid.first[cell + 1]; ++j) {
+        const Triangle& t = triangles[grid.triangle[j]];
+        sources.add(points[t[0]] - centre, points[t[1]] - centre, points[t[2]] - centre, scaled_normal(points, t) / 2,
+                    spread_of(points, t, largest) < 0.12);
+    }
+    cells::add(q, powers, centre, sources.polynomial(), sums);
+}
+
+/// cos(q . p + phase), for all waves.
+VCG_EXT_VECTORIZED void cosines(const Columns& q, const double* __restrict phase, const Point& p,
+                                double* __restrict out)
+{
+    const double* __restrict qx = q.x.data();
+    const double* __restrict qy = q.y.data();
+    const double* __restrict qz = q.z.data();
+    const double x = p[0], y = p[1], z = p[2];
+    for (std::size_t k = 0; k < q.count; ++k) {
+        double s, c;
+        sine_cosine(qx[k] * x + qy[k] * y + qz[k] * z + phase[k], s, c);
+        out[k] = c;
+    }
+}
+
 } // namespace
 
 std::vector<std::complex<double>> solid_transform(const Points& points, const std::vector<Triangle>& triangles,
-                                                  const Points& waves)
+                                                  const Points& waves, double longest)
 {
     constexpr int chunk = 1024;
     constexpr int cells_chunk = 64;
     const int count = static_cast<int>(triangles.size());
     const Columns q(waves);
-    double largest = 0;
+    double largest = longest;
     for (const Point& wave : waves)
         largest = std::max(largest, wave.norm());
 
@@ -388,7 +421,7 @@ std::vector<std::complex<double>> solid_transform(const Points& points, const st
         grid = cells::sort(points, triangles, cells::size / largest, own);
     else
         std::fill(own.begin(), own.end(), -1);
-    const std::vector<double> powers = cells::wave_products(q);
+    const std::vector<cells::Lanes> powers = cells::wave_products(q);
     const int cell_count = static_cast<int>(grid.centres.size());
     const int triangle_parts = (count + chunk - 1) / chunk;
     const int cell_parts = (cell_count + cells_chunk - 1) / cells_chunk;
@@ -404,16 +437,8 @@ std::vector<std::complex<double>> solid_transform(const Points& points, const st
     });
     for_chunks(cell_count, cells_chunk, [&](int begin, int end) {
         Sums sums = nothing();
-        for (int i = begin; i < end; ++i) {
-            const Point& centre = grid.centres[i];
-            cells::Sources sources;
-            for (int j = grid.first[i]; j < grid.first[i + 1]; ++j) {
-                const Triangle& t = triangles[grid.triangle[j]];
-                sources.add(points[t[0]] - centre, points[t[1]] - centre, points[t[2]] - centre,
-                            scaled_normal(points, t) / 2, spread_of(points, t, largest) < 0.12);
-            }
-            cells::add(q, powers, centre, sources.polynomial(), sums);
-        }
+        for (int i = begin; i < end; ++i)
+            add_cell(q, powers, points, triangles, grid, i, largest, sums);
         partial[triangle_parts + begin / cells_chunk] = std::move(sums);
     });
 
@@ -434,15 +459,8 @@ std::vector<double> wave_values(const Points& points, const Points& waves, const
     const Columns q(waves);
     std::vector<double> values(points.size() * q.count);
     for_chunks(static_cast<int>(points.size()), 1024, [&](int begin, int end) {
-        for (int v = begin; v < end; ++v) {
-            double* __restrict out = values.data() + v * q.count;
-            const double x = points[v][0], y = points[v][1], z = points[v][2];
-            for (std::size_t k = 0; k < q.count; ++k) {
-                double s, c;
-                sine_cosine(q.x[k] * x + q.y[k] * y + q.z[k] * z + phases[k], s, c);
-                out[k] = c;
-            }
-        }
+        for (int v = begin; v < end; ++v)
+            cosines(q, phases.data(), points[v], values.data() + v * q.count);
     });
     return values;
 }
@@ -454,21 +472,11 @@ std::vector<double> wave_field(const Points& points, const Points& waves, const 
     std::vector<double> field(points.size());
     for_chunks(static_cast<int>(points.size()), 1024, [&](int begin, int end) {
         std::vector<double> values(q.count);
-        const double* __restrict qx = q.x.data();
-        const double* __restrict qy = q.y.data();
-        const double* __restrict qz = q.z.data();
-        const double* __restrict phase = phases.data();
-        double* __restrict out = values.data();
         for (int v = begin; v < end; ++v) {
-            const double x = points[v][0], y = points[v][1], z = points[v][2];
-            for (std::size_t k = 0; k < q.count; ++k) {
-                double s, c;
-                sine_cosine(qx[k] * x + qy[k] * y + qz[k] * z + phase[k], s, c);
-                out[k] = c;
-            }
+            cosines(q, phases.data(), points[v], values.data());
             double sum = 0;
             for (std::size_t k = 0; k < q.count; ++k)
-                sum += amplitudes[k] * out[k];
+                sum += amplitudes[k] * values[k];
             field[v] = sum;
         }
     });

@@ -21,8 +21,10 @@ namespace vcg_ext {
 /// part in it.
 ///
 /// \param waves each other than 0
+/// \param longest the largest |q| that the accuracy is for, at least that of `waves`, so that a wave's value does not
+///                depend on the others; 0: theirs
 [[nodiscard]] std::vector<std::complex<double>>
-solid_transform(const Points& points, const std::vector<Triangle>& triangles, const Points& waves);
+solid_transform(const Points& points, const std::vector<Triangle>& triangles, const Points& waves, double longest = 0);
 
 /// Per point the sum over waves of `amplitudes[k]` cos(waves[k] . x + phases[k]).
 [[nodiscard]] std::vector<double> wave_field(const Points& points, const Points& waves,

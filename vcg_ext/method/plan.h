@@ -2,11 +2,12 @@
 #pragma once
 #include "../carrier/shells.h"
 #include "../carrier/strips.h"
-#include "../carrier/waves.h"
+#include "../carrier/wave_spectra.h"
 #include "../geometry/moments.h"
 #include "../key/key.h"
 #include "marking.h"
 
+#include <memory>
 #include <variant>
 
 namespace vcg_ext {
@@ -22,8 +23,8 @@ struct Plan {
     WavePlan waves;    ///< keyed
 };
 
-/// How a body is held, so that its carriers can be found: by the surface itself, or by another that it was registered
-/// to. Which kind, the method says.
-using MarkFrame = std::variant<ShellFrame, StripFrame, Frame, WaveBody>;
+/// How a body is held, so that its carriers can be found, however many these are: by the surface itself, or by another
+/// that it was registered to. Which kind, the method says.
+using MarkFrame = std::variant<ShellFrame, StripFrame, Frame, std::shared_ptr<WaveSpectra>>;
 
 } // namespace vcg_ext

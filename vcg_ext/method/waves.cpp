@@ -39,18 +39,18 @@ Plan plan_waves(const Key& key, const CarrierOptions& options)
 
 MarkFrame find_waves(const Surface& surface, const Plan& /*plan*/)
 {
-    return wave_body(surface);
+    return std::make_shared<WaveSpectra>(wave_body(surface));
 }
 
 Readings read_by_waves(const Surface& /*surface*/, const Plan& plan, const MarkFrame& frame)
 {
-    const WaveBody& body = std::get<WaveBody>(frame);
+    WaveSpectra& spectra = *std::get<std::shared_ptr<WaveSpectra>>(frame);
     const auto read = [&](bool at_rest_only, int rungs) {
         WaveReadOptions options;
         options.rungs = rungs;
         options.at_rest_only = at_rest_only;
         auto result = std::make_shared<Read>();
-        result->reading = read_waves(body, plan.waves, options);
+        result->reading = read_waves(spectra, plan.waves, options);
         result->presence = wave_presence(result->reading);
         return result;
     };

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace vcg_ext {
 
@@ -45,9 +46,12 @@ std::vector<Count> counts_to_try(const DetectOptions& options)
     return counts;
 }
 
+/// Found once, whatever number of carriers is tried.
+using Frames = std::map<Method, MarkFrame>;
+
 /// What each layer of the method reads; those that cannot read this surface at all are left out, and say why.
-std::vector<LayerReading> read_layers(const Surface& surface, const Key& key, CarrierOptions options, double& trim,
-                                      std::vector<std::string>& warnings)
+std::vector<LayerReading> read_layers(const Surface& surface, const Key& key, CarrierOptions options, Frames& frames,
+                                      double& trim, std::vector<std::string>& warnings)
 {
     const MethodRow& wanted = row_of(options.method);
     std::vector<LayerReading> layers;
@@ -57,8 +61,9 @@ std::vector<LayerReading> read_layers(const Surface& surface, const Key& key, Ca
         options.method = layer.first;
         try {
             const Plan plan = method.plan(key, options);
-            const MarkFrame frame = method.find_frame(surface, plan);
-            LayerReading read{layer.first, method.read(surface, plan, frame),
+            if (frames.find(layer.first) == frames.end())
+                frames.emplace(layer.first, method.find_frame(surface, plan));
+            LayerReading read{layer.first, method.read(surface, plan, frames.at(layer.first)),
                               bit_mask(key, method.secret, options.bits)};
             trim = std::max(trim, plan.trim);
             layers.push_back(std::move(read));
@@ -138,14 +143,15 @@ bool one_fits(const std::vector<Message>& expected, int carriers)
            });
 }
 
-Trial try_count(const Surface& surface, const Key& key, const DetectOptions& options, const Count& count)
+Trial try_count(const Surface& surface, const Key& key, const DetectOptions& options, const Count& count,
+                Frames& frames)
 {
     Trial trial;
     trial.count = count;
     CarrierOptions carriers = options.carriers;
     carriers.bits = count.carriers;
     carriers.quick = count.quick;
-    trial.layers = read_layers(surface, key, carriers, trial.trim, trial.warnings);
+    trial.layers = read_layers(surface, key, carriers, frames, trial.trim, trial.warnings);
     trial.judgement = judge(trial.layers, count.carriers, options.expected);
     return trial;
 }
@@ -239,6 +245,7 @@ DetectReport detect(const Surface& surface, const Key& key, const DetectOptions&
         throw Error("The expected message does not fit: " + need(options.expected.front()) + ", but Bits is " +
                     std::to_string(counts.front().carriers) + ". Bits must be that of embedding; 0 finds it.");
 
+    Frames frames;
     std::optional<Trial> best;
     double log10_any = 0;
     double log10_expected = 0;
@@ -246,7 +253,7 @@ DetectReport detect(const Surface& surface, const Key& key, const DetectOptions&
         report(progress, 10 + 80 * static_cast<int>(i) / static_cast<int>(counts.size()), "Reading");
         if (!one_fits(options.expected, counts[i].carriers))
             continue;
-        Trial trial = try_count(welded.surface, key, options, counts[i]);
+        Trial trial = try_count(welded.surface, key, options, counts[i], frames);
         log10_any = std::min(log10_any, trial.log10_p(false));
         if (asked)
             log10_expected = std::min(log10_expected, trial.log10_p(true));

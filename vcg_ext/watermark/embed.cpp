@@ -72,8 +72,8 @@ Points put_on(const Cover& cover, const Key& key, const EmbedOptions& options, c
         if (i == 1)
             below.emplace(marked);
         try {
-            Marking marking = mark(below ? *below : cover, key, row_of(method), options, coded, strength, result.trim,
-                                   progress);
+            Marking marking =
+                mark(below ? *below : cover, key, row_of(method), options, coded, strength, result.trim, progress);
             result.layers.push_back(method);
             take_up(marking, result);
             marked = {std::move(marking.kept.points), cover.triangles};
