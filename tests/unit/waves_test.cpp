@@ -232,6 +232,48 @@ TEST(Waves, SurviveRemeshingAndSmoothing)
     }
 }
 
+TEST(Waves, AFirstLookAtRestSeesWhatTheWholeReadingSees)
+{
+    const Marked& marked = marked_body();
+    WaveReadOptions at_rest;
+    at_rest.at_rest_only = true;
+    const Found quick = find(marked.stego, marked.coded, test_key(), at_rest);
+    const Found whole = find(marked.stego, marked.coded);
+    EXPECT_EQ(quick.presence.log_p, whole.presence.log_p);
+    EXPECT_EQ(quick.match.sum, whole.match.sum);
+}
+
+/// Round but for its lobes, so two of its variances are equal; another at each end.
+Surface lobed(int lobes, double depth)
+{
+    Surface s = shapes::sphere(5);
+    for (Point& p : s.points) {
+        const double around = std::hypot(p[0], p[1]);
+        const double lobe = 1 + depth * std::pow(around, lobes) * std::cos(lobes * std::atan2(p[1], p[0]));
+        p = Point(lobe * p[0], lobe * p[1], 1.6 * p[2] + 0.3 * p[2] * p[2]);
+    }
+    return s;
+}
+
+TEST(Waves, RoundBodiesAreHeldByTheirLobes)
+{
+    for (const int lobes : {3, 4, 5}) {
+        const Surface cover = lobed(lobes, 0.1);
+        const WaveBody solid = wave_body(cover);
+        EXPECT_EQ(solid.fold, lobes);
+        EXPECT_EQ(solid.odd_axis, 0);
+        EXPECT_TRUE(solid.turns[0].isIdentity(1e-12));
+        const Marked marked = mark(cover);
+        Surface moved = shapes::renumbered(shapes::moved(marked.stego, 7, 2.1, Point(2, -1, 2) / 3, {30, -20, 10}), 3);
+        EXPECT_LT(find(moved, marked.coded).match.log_p, -17 * decade) << lobes;
+        for (Point& p : moved.points)
+            p[0] = -p[0];
+        EXPECT_LT(find(moved, marked.coded).match.log_p, -17 * decade) << lobes << ", mirrored";
+        apply_attack(moved, {Attack::Simplify, 0.5, -1, 3});
+        EXPECT_LT(find(moved, marked.coded).match.log_p, -9 * decade) << lobes << ", simplified";
+    }
+}
+
 TEST(Waves, SoftValuesHaveTheSignsOfTheBits)
 {
     const Marked& marked = marked_body();
@@ -299,6 +341,7 @@ TEST(Waves, RefuseWhatHasNoFrameAndWhatIsTooCoarse)
     Surface cube = shapes::box(1, 1, 1);
     apply_attack(cube, {Attack::Subdivide, -1, 5, 0});
     EXPECT_NE(refusal(cube).find("every direction"), std::string::npos);
+    EXPECT_NE(refusal(lobed(3, 0)).find("round about one of its axes"), std::string::npos);
     EXPECT_NE(refusal(body(1)).find("vertices"), std::string::npos);
     EXPECT_NE(refusal(shapes::triangular_grid(3, 2, 0.1)).find("encloses nothing"), std::string::npos);
 }
@@ -339,7 +382,9 @@ TEST(Waves, BoundsHoldWhereDithersAndMasksAreDrawnAnew)
 
     for (const bool is_marked : {false, true}) {
         const Surface& surface = is_marked ? marked.stego : marked.cover;
-        WaveSpectra spectra(wave_body(surface), 1);
+        WaveBody solid = wave_body(surface);
+        solid.turns.resize(1);
+        WaveSpectra spectra(solid);
         WaveReading reading = read_waves(spectra, wave_plan(test_key(), waves), options);
         reading.grid = &small;
         const WavePresence own = wave_presence(reading);

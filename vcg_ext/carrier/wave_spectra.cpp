@@ -21,30 +21,16 @@ constexpr int most_sites_undone = 400000;
 /// Area that a surface may reach, over what it is: undoing more smoothing than there was crumples it, at some length.
 constexpr double most_area = 3;
 
-/// Body turned by half a turn about one of its axes, or not at all: signs of the coordinates.
-Point signs_of(int orientation)
-{
-    const Point signs[4] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-    return signs[orientation];
-}
-
 /// Canonical coordinates of `points`, which are canonical ones of the body, displaced; none where they bound nothing.
 Points canonical_again(const WaveBody& body, const Points& points)
 {
-    Frame frame = solid_frame(points, body.topology.triangles);
-    if (frame.measure * body.frame.measure <= 0)
-        return {};
-    align_axes(frame, Eigen::Matrix3d::Identity()); // the same way round as before
-    const double r = ball_radius(frame);
-    Points result(points.size());
-    for_each_index(static_cast<int>(points.size()),
-                   [&](int v) { result[v] = frame.axes.transpose() * (points[v] - frame.centre) / r; });
-    return result;
+    const Frame frame = frame_again(body, points, Eigen::Matrix3d::Identity());
+    return frame.measure * body.frame.measure > 0 ? canonical(frame, points) : Points();
 }
 
 } // namespace
 
-WaveSpectra::WaveSpectra(WaveBody body, int orientations) : body_(std::move(body)), orientations_(orientations)
+WaveSpectra::WaveSpectra(WaveBody body) : body_(std::move(body))
 {
     states_.emplace_back(body_.points);
 }
@@ -81,8 +67,8 @@ const WaveSpectra::Spectrum& WaveSpectra::spectrum(State& state, const WavePlan&
     Points waves;
     for (int k = static_cast<int>(state.vectors.size()); k < plan.count(); ++k) {
         state.vectors.push_back(plan.vectors[k]);
-        for (int o = 0; o < orientations_; ++o)
-            waves.emplace_back(plan.vectors[k].cwiseProduct(signs_of(o)));
+        for (const Eigen::Matrix3d& turn : body_.turns)
+            waves.emplace_back(turn.transpose() * plan.vectors[k]);
     }
     if (waves.empty())
         return state.spectrum;

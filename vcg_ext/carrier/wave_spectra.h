@@ -18,14 +18,12 @@ public:
                                                      4, 4.5,   5,    5.5,   6.125, 6.75, 7.375, 8};
     static constexpr int gaps = 4;
 
-    /// Wave by wave, and of each wave one value for each orientation (see WaveView).
+    /// Wave by wave, and of each wave one value for each of the body's turns.
     using Spectrum = std::vector<std::complex<double>>;
 
-    /// \param orientations 4, or 1: only as the third moments say
-    explicit WaveSpectra(WaveBody body, int orientations = 4);
+    explicit WaveSpectra(WaveBody body);
 
     [[nodiscard]] const WaveBody& body() const { return body_; }
-    [[nodiscard]] int orientations() const { return orientations_; }
 
     [[nodiscard]] const Spectrum& at_rest(const WavePlan& plan);
 
@@ -50,7 +48,6 @@ private:
     const Spectrum& spectrum(State& state, const WavePlan& plan);
 
     WaveBody body_;
-    int orientations_;
     std::deque<State> states_; ///< at rest; then two flows, and those before smoothing; they stay where they are
 };
 

@@ -212,31 +212,6 @@ WavePlan wave_plan(const Key& key, int count)
     return plan;
 }
 
-WaveBody wave_body(const Surface& surface)
-{
-    WaveBody body;
-    body.topology = solid_topology(surface);
-    body.diagonal = bounding_diagonal(surface);
-    body.points = solid_points(body.topology, surface.points);
-    body.frame = solid_frame(body.points, body.topology.triangles);
-    if (body.frame.measure == 0)
-        throw Error(
-            "The mesh encloses nothing: its faces bound no solid. Waves marks bodies; close the mesh, or choose "
-            "another method.");
-    body.radius = ball_radius(body.frame);
-    for_each_index(static_cast<int>(body.points.size()), [&](int v) {
-        body.points[v] = body.frame.axes.transpose() * (body.points[v] - body.frame.centre) / body.radius;
-    });
-    body.area = area_of(body, body.points);
-    return body;
-}
-
-double area_of(const WaveBody& body, const Points& points)
-{
-    return ordered_sum(body.topology.surface_triangles, 0.0,
-                       [&](int f) { return scaled_normal(points, body.topology.triangles[f]).norm() / 2; });
-}
-
 double wave_step(const WaveBody& body, double strength, int waves, int* rung)
 {
     const double step =
@@ -268,7 +243,7 @@ const WaveGrid& wave_grid()
 WaveReading read_waves(WaveSpectra& spectra, const WavePlan& plan, const WaveReadOptions& options)
 {
     const WaveBody& body = spectra.body();
-    const int orientations = spectra.orientations();
+    const int orientations = static_cast<int>(spectra.body().turns.size());
     const std::size_t count = plan.vectors.size();
     const WaveSpectra::Spectrum& rest = spectra.at_rest(plan);
     std::array<WaveSpectra::Spectrum, 2> flows;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "../geometry/solid.h"
 #include "../key/key.h"
 #include "../payload/message.h"
+#include "wave_body.h"
 
 #include <complex>
 #include <vector>
@@ -24,22 +24,6 @@ struct WavePlan {
 
 [[nodiscard]] WavePlan wave_plan(const Key& key, int count);
 
-/// A solid in coordinates of its own: x = axes^T (v - centre) / r.
-struct WaveBody {
-    SolidTopology topology;
-    Points points; ///< sites and apexes, canonical
-    Frame frame;
-    double radius = 0;   ///< r, in the mesh's unit
-    double area = 0;     ///< of the surface without its fans, over r^2
-    double diagonal = 0; ///< of the bounding box, in the mesh's unit
-};
-
-/// \pre the surface is welded  \throw Error where it encloses nothing
-[[nodiscard]] WaveBody wave_body(const Surface& surface);
-
-/// Of the surface without its fans, were its points there.
-[[nodiscard]] double area_of(const WaveBody& body, const Points& points);
-
 /// The step D in which a displacement of `strength` (RMS over the diagonal) is to be expected, on a ladder of sqrt 2:
 /// D = strength sqrt(12) A r^-3 diagonal / (4 pi) / sqrt(2 K). A wave of amplitude a over the whole surface A changes
 /// its own m by a A / (8 pi r^3) in canonical units, targets are uniform within half a step, and K waves add up.
@@ -53,7 +37,7 @@ struct WaveBody {
 
 /// One way to lay a body into the waves, and to count in steps: the phases, and how processing may have shifted them.
 struct WaveView {
-    int orientation = 0; ///< 0 to 3: as the third moments say, or turned by half a turn about axis 0, 1 or 2
+    int orientation = 0; ///< number in WaveBody::turns
     bool mirrored = false;
     int rung = 0;
     double step = 0;           ///< D

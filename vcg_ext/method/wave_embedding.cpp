@@ -25,14 +25,12 @@ constexpr double readable = 0.05;    ///< of a step: above it the mark is not wo
 std::vector<double> values_now(const WaveBody& body, const Points& vertices, const WavePlan& plan)
 {
     Points points = solid_points(body.topology, vertices);
-    Frame frame = solid_frame(points, body.topology.triangles);
+    const Frame frame = frame_again(body, points, body.frame.axes);
     if (frame.measure == 0)
         throw Error("The marked mesh would enclose nothing.");
-    align_axes(frame, body.frame.axes);
-    const double r = ball_radius(frame);
-    for_each_index(static_cast<int>(points.size()),
-                   [&](int v) { points[v] = frame.axes.transpose() * (points[v] - frame.centre) / r; });
-    std::vector<std::complex<double>> transform = solid_transform(points, body.topology.triangles, plan.vectors);
+    points = canonical(frame, points);
+    std::vector<std::complex<double>> transform =
+        solid_transform(points, body.topology.triangles, plan.vectors, longest_wave);
     if (frame.measure < 0)
         for (std::complex<double>& value : transform)
             value = -value;
