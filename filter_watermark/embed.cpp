@@ -32,6 +32,10 @@ RichParameterList parameters(const MeshDocument&)
         RichFloat("Strength", 0, "Strength",
                   "0 is the method's default. Layered, Waves: RMS move over the diagonal, 1e-4; L-M, QSP, Cho, "
                   "Geodesic: 0.1; Spectral: 15. More survives more and shows more."));
+    list.addParam(
+        RichBool("Rehearse", false, "Rehearse",
+                 "Afterwards tries noise, simplification, smoothing and quantization on copies, and says which "
+                 "of them the mark survives."));
     add_report_parameter(list);
     return list;
 }
@@ -64,7 +68,15 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
     ReportFile file(values.getSaveFileName("Report"));
 
     vcg_ext::Surface surface = read_surface(layer.cm);
-    const Json report = to_json(embed_or_advise(surface, key, options, progress));
+    const bool rehearses = values.getBool("Rehearse");
+    const vcg_ext::EmbedReport embedded =
+        embed_or_advise(surface, key, options, vcg_ext::within(progress, 0, rehearses ? 50 : 100));
+    std::vector<vcg_ext::Rehearsal> rehearsals;
+    if (rehearses) {
+        options.carriers.bits = embedded.carriers;
+        rehearsals = rehearse(surface, key, options.carriers, options.message, vcg_ext::within(progress, 50, 100));
+    }
+    const Json report = to_json(embedded, rehearsals);
     file.write(report);
     write_positions(layer, surface.points);
     return report;

@@ -26,9 +26,20 @@ Json to_json(const vcg_ext::LayerReport& layer)
     return json;
 }
 
+/// What the mark does to the surface, in the mesh's own unit.
+std::string change(const vcg_ext::EmbedReport& report)
+{
+    return QString("the surface moves by %1 (RMS), its vertices by up to %2, on a body of %3 (diagonal), in the mesh's "
+                   "unit.")
+        .arg(report.mrms, 0, 'g', 3)
+        .arg(report.max_displacement, 0, 'g', 3)
+        .arg(report.diagonal, 0, 'g', 4)
+        .toStdString();
+}
+
 } // namespace
 
-Json to_json(const vcg_ext::EmbedReport& report)
+Json to_json(const vcg_ext::EmbedReport& report, const std::vector<vcg_ext::Rehearsal>& rehearsals)
 {
     Json json = {
         {"method", name(report.method)},
@@ -48,6 +59,9 @@ Json to_json(const vcg_ext::EmbedReport& report)
         {"max_displacement", report.max_displacement},
         {"mrms", report.mrms},
         {"mrms_relative", report.mrms_relative},
+        {"diagonal", report.diagonal},
+        {"plane_bend", report.plane_bend},
+        {"change", change(report)},
         {"seconds", report.seconds},
     };
     if (report.solver) {
@@ -61,6 +75,10 @@ Json to_json(const vcg_ext::EmbedReport& report)
                          {"three", report.moves->moves[2]},
                          {"more", report.moves->moves[3]},
                          {"unconverged", report.moves->unconverged}};
+    for (const vcg_ext::Rehearsal& one : rehearsals)
+        json["rehearsal"][QString(name(one.attack.attack)).toLower().toStdString()] = one.p_value;
+    if (!rehearsals.empty())
+        json["survival"] = summary(rehearsals);
     json["version"] = VCG_EXT_VERSION;
     json["warnings"] = report.warnings;
     json["recipe"] = report.recipe;

@@ -8,7 +8,7 @@
 #include <vcg_ext/watermark/watermark.h>
 
 /// The results under the names that scripts rely on.
-Json to_json(const vcg_ext::EmbedReport& report);
+Json to_json(const vcg_ext::EmbedReport& report, const std::vector<vcg_ext::Rehearsal>& rehearsals);
 Json to_json(const vcg_ext::DetectReport& report);
 Json to_json(const vcg_ext::AttackReport& report);
 Json to_json(const vcg_ext::DistortionReport& report);

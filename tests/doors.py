@@ -43,6 +43,7 @@ FILTERS: dict[str, tuple[str, dict[str, tuple[str, Value]]]] = {
             "Message": ("RichString", ""),
             **CARRIERS,
             "Strength": ("RichFloat", 0),
+            "Rehearse": ("RichBool", False),
             "Report": ("RichSaveFile", ""),
         },
     ),

@@ -21,7 +21,7 @@ MAY_INCLUDE: dict[str, set[str]] = {
     "metric": {"base", "key", "geometry"},
     "attack": {"base", "key", "geometry"},
     "method": {"base", "key", "geometry", "payload", "carrier", "placement"},
-    "watermark": {"base", "key", "geometry", "payload", "carrier", "placement", "metric", "method"},
+    "watermark": {"base", "key", "geometry", "payload", "carrier", "placement", "metric", "attack", "method"},
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)

@@ -72,7 +72,7 @@ def test_the_report_has_all_results(tmp_path: Path) -> None:
     assert list(report) == [
         "method", "statistic", "message", "bits", "strength", "trim", "carriers", "layers", "samples_min", "capacity",
         "detection_ratio", "rounds", "moved_vertices", "guarded_vertices", "max_displacement", "mrms", "mrms_relative",
-        "seconds", "solver", "version", "warnings", "recipe",
+        "diagonal", "plane_bend", "change", "seconds", "solver", "version", "warnings", "recipe",
     ]  # fmt: skip
     assert report["method"] == "L-M"
     assert report["statistic"] == "Mean"
@@ -89,6 +89,15 @@ def test_messages_come_back_as_they_were_given(tmp_path: Path, message: str) -> 
     assert found["present"] is True
     alone = PyMeshLab().run(DETECT, output, Method="Cho", Key=KEY)
     assert alone["message"] == ("" if message.startswith("bits:") else message)  # raw bits prove nothing by themselves
+
+
+def test_a_rehearsal_says_what_the_mark_survives(tmp_path: Path) -> None:
+    report = PyMeshLab().run(EMBED, FANDISK, Report=str(tmp_path / "report.json"), Rehearse=True, **MARK)
+    assert set(report["rehearsal"]) == {"noise", "simplify", "smooth", "quantize"}
+    assert report["rehearsal"]["noise"] < 1e-6
+    assert report["survival"].startswith("survives noise .1 % (p 1e-")
+    assert report["recipe"] == json.loads((tmp_path / "report.json").read_text())["recipe"]
+    assert f"{report['diagonal']:.4g}" in report["change"]
 
 
 def test_a_wrong_key_and_an_unmarked_mesh_are_not_present(marked: Path) -> None:

@@ -5,6 +5,7 @@
 #include "../base/stopwatch.h"
 #include "../base/text.h"
 #include "../method/methods.h"
+#include "../metric/bend.h"
 #include "../metric/displacement.h"
 #include "../payload/code.h"
 #include "detect.h"
@@ -175,7 +176,9 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     result.moved_vertices = moved_count(surface.points, marked.points);
     result.max_displacement = max_displacement(surface.points, marked.points);
     result.mrms = local_mrms(welded.surface.points, stored, welded.surface.triangles, cover.around);
-    result.mrms_relative = result.mrms / bounding_diagonal(welded.surface);
+    result.diagonal = bounding_diagonal(welded.surface);
+    result.mrms_relative = result.mrms / result.diagonal;
+    result.plane_bend = largest_bend(welded.surface.points, stored, welded.surface.triangles, cover.around);
     result.recipe = recipe_of(options);
     warn(options, result);
     result.seconds["measure"] = watch.lap();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-/// What a host calls: embed(), detect(), their options and reports.
+/// What a host calls: embed(), detect(), rehearse(), their options and reports.
 #include "detect.h"
 #include "embed.h"
+#include "rehearse.h"
