@@ -100,6 +100,19 @@ def test_a_rehearsal_says_what_the_mark_survives(tmp_path: Path) -> None:
     assert f"{report['diagonal']:.4g}" in report["change"]
 
 
+def test_normals_are_those_that_meshlab_gives_such_a_mesh() -> None:
+    meshes = opened(FANDISK)
+    meshes.apply_filter("apply_coord_watermark", message=MESSAGE, key=KEY, method="L-M")
+    marked = meshes.current_mesh()
+    own = pymeshlab.Mesh(marked.vertex_matrix(), marked.face_matrix())  # MeshLab makes its normals
+    meshes.add_mesh(own)
+    meshes.apply_filter("apply_coord_laplacian_smoothing", stepsmoothnum=0)  # and once more after a filter of its own
+    own = meshes.current_mesh()
+    assert np.array_equal(own.vertex_matrix(), marked.vertex_matrix())
+    assert np.allclose(marked.vertex_normal_matrix(), own.vertex_normal_matrix(), rtol=0, atol=1e-9)
+    assert np.allclose(marked.face_normal_matrix(), own.face_normal_matrix(), rtol=0, atol=1e-9)
+
+
 def test_a_wrong_key_and_an_unmarked_mesh_are_not_present(marked: Path) -> None:
     assert PyMeshLab().run(DETECT, marked, Key="another", Method="L-M", Expected=MESSAGE)["present"] is False
     assert PyMeshLab().run(DETECT, BUNNY, **LM, Expected=MESSAGE)["present"] is False

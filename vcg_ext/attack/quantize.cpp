@@ -9,8 +9,8 @@ Points quantize(const Points& points, int bits)
 {
     Points result = points;
     const Eigen::AlignedBox3d box = bounding_box(points);
-    const Point low = box.min();
-    const Point high = box.max();
+    const Point& low = box.min();
+    const Point& high = box.max();
     const double steps = std::ldexp(1.0, bits) - 1;
     for (Point& p : result)
         for (int axis = 0; axis < 3; ++axis)

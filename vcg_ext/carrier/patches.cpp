@@ -175,6 +175,7 @@ Patches equal_area_patches(const Surface& surface, const EdgeGraph& graph, const
                 profile[piece_of(layer_cuts, p.y())].add(p.x(), area);
         });
     std::vector<std::vector<double>> column_cuts;
+    column_cuts.reserve(layer_profiles.size());
     for (const AreaProfile& profile : layer_profiles)
         column_cuts.push_back(profile.cuts(equal_shares(columns)));
 
