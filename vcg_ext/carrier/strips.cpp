@@ -42,9 +42,10 @@ StripFrame strip_frame(const Surface& surface, const Points& directions)
     const Frame frame = principal_frame(surface);
     if (frame.measure == 0)
         throw Error("No face of the mesh has an area. Check its coordinates, or reconstruct the surface.");
+    const bool doubtful = is_round(frame) || is_symmetric(frame, 0) || is_symmetric(frame, 1);
     for (const Point& direction : directions)
         if (const auto hit = farthest_hit(surface, frame.centre, frame.axes * direction))
-            return {*hit, {}, frame.from_volume};
+            return {*hit, {}, frame.from_volume, doubtful};
     throw Error("No ray from the mesh's centre meets its surface, so geodesic distances have no source. "
                 "Use another method, or a more complete mesh.");
 }

@@ -14,6 +14,7 @@ struct StripFrame {
     /// T_max; T_min is 0, the source itself. Empty: the farthest distance that the march finds.
     std::optional<double> farthest;
     bool from_volume = false; ///< whether the source was found in the frame of the enclosed solid (principal_frame)
+    bool doubtful = false;    ///< whether that frame may turn: a round body, or one that is even along an axis
 };
 
 /// Strips of equal geodesic distance from a point that only the key knows.

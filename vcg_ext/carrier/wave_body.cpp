@@ -12,7 +12,7 @@ namespace vcg_ext {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr double is_round = 0.05;     ///< relative difference of two variances below which the angle is not theirs
+constexpr double round_below = 0.05;  ///< relative difference of two variances below which the angle is not theirs
 constexpr double never_round = 0.1;   ///< and the same from which on no copy's can be there
 constexpr double always_round = 0.02; ///< and below
 constexpr int most_fold = 12;
@@ -103,7 +103,7 @@ WaveBody wave_body(const Surface& surface)
                                           ? angles_of(body.points, body.topology.triangles, body.frame, body.odd_axis)
                                           : std::vector<Angle>();
     double held = 0;
-    if (gap < is_round && !angles.empty()) {
+    if (gap < round_below && !angles.empty()) {
         body.fold = angles.front().fold;
         held = angles.front().angle;
         body.frame.axes *= turn_about(body.odd_axis, held);

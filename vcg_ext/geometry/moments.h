@@ -16,6 +16,12 @@ struct Frame {
     bool from_volume = false;            ///< moments of the enclosed solid; else of the surface itself
 };
 
+/// Whether the body is so even along an axis (0 to 2) that its third moment there may change sign.
+[[nodiscard]] bool is_symmetric(const Frame& frame, int axis);
+
+/// Whether two variances are so near to each other that the axes may turn, or swap.
+[[nodiscard]] bool is_round(const Frame& frame);
+
 /// Whether the faces bound a solid: each edge is used as often in one direction as in the other.
 [[nodiscard]] bool is_closed_and_oriented(const Surface& surface);
 

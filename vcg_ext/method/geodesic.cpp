@@ -31,6 +31,10 @@ std::vector<std::string> warnings_of(const StripFrame& frame, const Strips& stri
         warnings.emplace_back(
             "The mesh is not closed or not consistently oriented, so it is aligned by the moments of its surface. "
             "Cutting it or filling its holes afterwards loses the mark.");
+    if (frame.doubtful)
+        warnings.emplace_back(
+            "The body is round or symmetric, so its own axes are not sure, and Geodesic finds its source by them: the "
+            "least change of the shape may lose the mark. Choose Layered, Waves or a method of vertex norms.");
     if (strips.unreached > 0)
         warnings.push_back(std::to_string(strips.unreached) +
                            " vertices belong to parts of the mesh that are not connected with the part that carries "

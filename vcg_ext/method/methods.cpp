@@ -107,7 +107,7 @@ const std::vector<MethodRow>& all_methods()
          "Spectral",
          "survives noise and smoothing",
          "patches",
-         {{Method::Spectral, 4}},
+         {{Method::Spectral, 0}},
          false,
          0,
          squash,

@@ -129,13 +129,6 @@ std::vector<AxisFlips> orientations(const Plan& plan)
     return {{false, false}, {true, false}, {false, true}, {true, true}};
 }
 
-bool symmetric(const Frame& frame, int axis)
-{
-    // Noise, quantization, smoothing and simplification move bunny00's small one, 0.010, by at most 0.0016.
-    constexpr double clear = 0.005;
-    return std::abs(frame.third_moments[axis]) < clear * std::pow(frame.variances[axis], 1.5);
-}
-
 bool spare_bit(int number)
 {
     return number % 2 == 1;
@@ -148,7 +141,7 @@ int blind_orientation(const PatchReading& reading, const Plan& plan)
     double most = -std::numeric_limits<double>::infinity();
     for (std::size_t way = 0; way < all.size(); ++way) {
         const AxisFlips flips = all[way];
-        if ((flips.first && !symmetric(reading.frame, 0)) || (flips.second && !symmetric(reading.frame, 1)))
+        if ((flips.first && !is_symmetric(reading.frame, 0)) || (flips.second && !is_symmetric(reading.frame, 1)))
             continue;
         const std::vector<int> patches = carrying_patches(reading, plan, flips);
         double agreement = 0;
