@@ -60,6 +60,43 @@ void to_half_a_period(std::vector<double>& column)
         x *= size > 0 ? 0.5 / size : 0;
 }
 
+/// Takes off `column` what it has of `other`.
+void make_square(std::vector<double>& column, const std::vector<double>& other)
+{
+    double dot = 0;
+    double square = 0;
+    for (std::size_t k = 0; k < column.size(); ++k) {
+        dot += other[k] * column[k];
+        square += other[k] * other[k];
+    }
+    if (square > 0)
+        for (std::size_t k = 0; k < column.size(); ++k)
+            column[k] -= dot / square * other[k];
+}
+
+/// Phases for each lambda k of `wanted`, from values at the nodes, as far as these go.
+std::vector<std::vector<double>> interpolated(const std::vector<std::vector<double>>& at_nodes,
+                                              const std::vector<double>& wanted, const std::vector<double>& dithers)
+{
+    std::vector<std::vector<double>> phases;
+    for (const double s : wanted) {
+        int first = 0;
+        while (first + gaps + 1 < static_cast<int>(nodes.size()) && nodes[first + gaps] < s)
+            first += gaps;
+        if (first + gaps >= static_cast<int>(at_nodes.size()))
+            break;
+        const auto weights = interpolation(s, first);
+        std::vector<double> phase(dithers.size());
+        for (std::size_t k = 0; k < phase.size(); ++k) {
+            phase[k] = -dithers[k];
+            for (int i = 0; i <= gaps; ++i)
+                phase[k] += weights[i] * at_nodes[first + i][k];
+        }
+        phases.push_back(std::move(phase));
+    }
+    return phases;
+}
+
 /// One row of a view's grid, u by u, as complex numbers exp(2 pi i y_k) that turn by a step of u.
 class RowScan {
 public:
@@ -290,34 +327,13 @@ WaveReading read_waves(WaveSpectra& spectra, const WavePlan& plan, const WaveRea
             view.bend = part(flows[0]);
             view.relax = part(flows[1]);
             to_half_a_period(view.bend);
-            double dot = 0;
-            double square = 0;
-            for (std::size_t k = 0; k < count; ++k) {
-                dot += view.bend[k] * view.relax[k];
-                square += view.bend[k] * view.bend[k];
-            }
-            if (square > 0)
-                for (std::size_t k = 0; k < count; ++k)
-                    view.relax[k] -= dot / square * view.bend[k];
+            make_square(view.relax, view.bend);
             to_half_a_period(view.relax);
-            std::vector<std::vector<double>> at;
+            std::vector<std::vector<double>> at_nodes;
+            at_nodes.reserve(before.size());
             for (const WaveSpectra::Spectrum* spectrum : before)
-                at.push_back(part(*spectrum));
-            for (const double s : reading.grid->undone) {
-                int first = 0;
-                while (first + gaps + 1 < static_cast<int>(nodes.size()) && nodes[first + gaps] < s)
-                    first += gaps;
-                if (first + gaps >= static_cast<int>(at.size()))
-                    break;
-                const auto weights = interpolation(s, first);
-                std::vector<double> phase(count);
-                for (std::size_t k = 0; k < count; ++k) {
-                    phase[k] = -plan.dithers[k];
-                    for (int i = 0; i <= gaps; ++i)
-                        phase[k] += weights[i] * at[first + i][k];
-                }
-                view.undone.push_back(std::move(phase));
-            }
+                at_nodes.push_back(part(*spectrum));
+            view.undone = interpolated(at_nodes, reading.grid->undone, plan.dithers);
             reading.views.push_back(std::move(view));
         }
     return reading;

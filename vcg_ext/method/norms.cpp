@@ -156,10 +156,12 @@ public:
     /// The vertices that attain the least and the largest norm stay, or the range would move with them.
     [[nodiscard]] std::vector<double> mobility() const
     {
-        const auto [least, most] = std::minmax_element(norms_.begin(), norms_.end());
+        const auto range = std::minmax_element(norms_.begin(), norms_.end());
+        const double least = *range.first;
+        const double most = *range.second;
         std::vector<double> result(norms_.size());
         for_each_index(static_cast<int>(result.size()),
-                       [&](int v) { result[v] = norms_[v] == *least || norms_[v] == *most ? 0 : 1; });
+                       [&](int v) { result[v] = norms_[v] == least || norms_[v] == most ? 0 : 1; });
         return result;
     }
 

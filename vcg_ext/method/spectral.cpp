@@ -61,6 +61,7 @@ Points exact_bands(const EdgeGraph& graph, const Points& points, const std::vect
 double best_threshold(const std::vector<PatchShape>& shapes)
 {
     std::vector<double> ratios;
+    ratios.reserve(shapes.size());
     for (const PatchShape& shape : shapes)
         ratios.push_back(std::log(shape.ratio()));
     return two_means(std::move(ratios));
