@@ -5,7 +5,7 @@
 // Each job runs in a process of its own with a limit of processor time, so that a crash or a hang is seen, and only
 // counted once; a busy machine makes no hang.
 // Ends with an error where a method marked hardly any mesh, too.
-// Usage: mesh_sweep [--stl] [--every N] [--seconds N] [--marked N] [--verbose]
+// Usage: mesh_sweep [--stl] [--every N] [--seconds N] [--marked N] [--method NAME] [--verbose]
 //   --stl      each saved as a binary STL file, and opened from that
 //   --every N  each Nth mesh only
 //   --marked N meshes that each method must mark at least; 1 without
@@ -42,6 +42,7 @@ struct Settings {
     int every = 1;
     int seconds = 120;
     int marked = 1;
+    std::string method; ///< this one only; empty: all
 };
 
 struct Job {
@@ -50,10 +51,12 @@ struct Job {
 };
 
 /// Every method with each of its statistics.
-std::vector<Job> all_jobs()
+std::vector<Job> all_jobs(const std::string& method)
 {
     std::vector<Job> jobs;
     for (const MethodRow& row : all_methods()) {
+        if (!method.empty() && method != row.name)
+            continue;
         jobs.push_back({row.method, Statistic::Mean});
         if (row.has_statistic)
             jobs.push_back({row.method, Statistic::Variance});
@@ -187,6 +190,8 @@ int main(int count, char** arguments)
             settings.seconds = std::max(1, number());
         else if (argument == "--marked")
             settings.marked = std::max(1, number());
+        else if (argument == "--method" && i + 1 < count)
+            settings.method = arguments[++i];
         else
             return std::fprintf(stderr,
                                 "usage: mesh_sweep [--stl] [--every N] [--seconds N] [--marked N] [--verbose]\n"),
@@ -195,7 +200,7 @@ int main(int count, char** arguments)
 
     const Key key("mesh_sweep");
     [[maybe_unused]] const auto derived = key.stream("before any fork: a child has no threads to wait for").next();
-    const std::vector<Job> jobs = all_jobs();
+    const std::vector<Job> jobs = all_jobs(settings.method);
     std::vector<std::array<int, outcomes>> counts(jobs.size());
     std::map<std::string, int> reasons;
     const std::vector<std::string> names = all_meshes();
