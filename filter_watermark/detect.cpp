@@ -56,9 +56,12 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
     ReportFile file(values.getSaveFileName("Report"));
 
     const vcg_ext::DetectReport report = detect(read_surface(layer.cm), key, options, progress);
-    const Json results = to_json(report);
+    Json results = to_json(report);
+    const bool shows = values.getBool("ShowCarriers");
+    if (shows && report.carrier_of_vertex.empty())
+        results["warnings"].push_back("There are no carriers to show: those of this method are no sets of vertices.");
     file.write(results);
-    if (values.getBool("ShowCarriers"))
+    if (shows && !report.carrier_of_vertex.empty())
         write_classes(layer, report.carrier_of_vertex);
     return results;
 }

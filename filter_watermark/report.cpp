@@ -167,6 +167,18 @@ QString to_line(const Json& value)
     return QString::fromStdString(value.dump());
 }
 
+/// "Waves: p_message 1e-19, presence 1e-90", or the name alone.
+QString layer_line(const Json& layer)
+{
+    if (layer.is_string())
+        return to_line(layer);
+    QStringList parts;
+    for (const auto& [name, value] : layer.items())
+        if (name != "method")
+            parts += QString("%1 %2").arg(name.c_str(), to_line(value));
+    return to_line(layer["method"]) + ": " + parts.join(", ");
+}
+
 } // namespace
 
 std::map<std::string, HostValue> to_values(const Json& results)
@@ -207,6 +219,9 @@ QStringList to_lines(const Json& results)
         if (value.is_object()) {
             for (const auto& [part, number] : value.items())
                 lines += QString("%1 %2: %3").arg(name.c_str(), part.c_str(), to_line(number));
+        } else if (name == "layers") {
+            for (const Json& layer : value)
+                lines += "layer " + layer_line(layer);
         } else {
             lines += QString("%1: %2").arg(name.c_str(), to_line(value));
         }

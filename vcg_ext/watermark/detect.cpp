@@ -83,9 +83,12 @@ std::vector<LayerReading> read_layers(const Surface& surface, const Key& key, Ca
     return layers;
 }
 
-/// Per vertex of the unwelded surface the number of the carrier that it is in, or -1.
+/// Per vertex of the unwelded surface the number of the carrier that it is in, or -1; empty where carriers are no sets
+/// of vertices.
 std::vector<int> carrier_of_vertex(const Readings& readings, const Reading& way, const std::vector<int>& site_of_vertex)
 {
+    if (readings.label_of_vertex.empty())
+        return {};
     std::vector<int> carrier_of_label;
     for (std::size_t i = 0; i < way.label.size(); ++i)
         if (way.label[i] >= 0) {
@@ -94,8 +97,6 @@ std::vector<int> carrier_of_vertex(const Readings& readings, const Reading& way,
             carrier_of_label[way.label[i]] = static_cast<int>(i);
         }
     std::vector<int> result(site_of_vertex.size(), -1);
-    if (readings.label_of_vertex.empty())
-        return result;
     for (std::size_t v = 0; v < result.size(); ++v) {
         const int label = site_of_vertex[v] >= 0 ? readings.label_of_vertex[site_of_vertex[v]] : -1;
         if (label >= 0 && label < static_cast<int>(carrier_of_label.size()))
@@ -308,6 +309,10 @@ DetectReport detect(const Surface& surface, const Key& key, const DetectOptions&
     result.smoothing_rounds = layer.readings.smoothing_rounds;
     result.orientation = way.orientation;
     result.carrier_of_vertex = carrier_of_vertex(layer.readings, way, welded.site_of_vertex);
+    for (const LayerReading& other : best->layers)
+        if (result.carrier_of_vertex.empty())
+            result.carrier_of_vertex =
+                carrier_of_vertex(other.readings, other.readings.ways[other.readings.blind], welded.site_of_vertex);
     result.warnings = best->warnings;
     result.seconds["detection"] = watch.lap();
     report(progress, 100, "Done");

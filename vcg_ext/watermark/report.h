@@ -85,7 +85,9 @@ struct DetectReport {
     std::vector<std::string> warnings;
     /// Spectral: whether axis 1 and axis 2 were read along (+) or against (-) the body's third moments, as "++" or "-+".
     std::string orientation;
-    std::vector<int> carrier_of_vertex; ///< per vertex the number of the carrier that it is in, or -1
+    /// Per vertex the number of the carrier that it is in, or -1; of the first layer whose carriers are sets of vertices,
+    /// and empty where there is none.
+    std::vector<int> carrier_of_vertex;
 };
 
 } // namespace vcg_ext
