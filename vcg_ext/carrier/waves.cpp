@@ -7,7 +7,8 @@
 #include "../geometry/turns.h"
 #include "../geometry/wave_sums.h"
 #include "../key/random.h"
-#include "../payload/sum_tails.h"
+#include "../payload/evidence.h"
+#include "../payload/cosine_tail.h"
 #include "wave_spectra.h"
 
 #include <algorithm>
@@ -19,6 +20,8 @@ namespace vcg_ext {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
+constexpr double rung_fall = 1.0 / 3; ///< of the weight, from the rung that is expected to its neighbours
+constexpr double plain_share = 0.7;   ///< of the weight, for the orientation that the body itself tells
 constexpr double never = std::numeric_limits<double>::infinity();
 
 /// log(exp(a) + exp(b))
@@ -184,9 +187,9 @@ std::vector<Part> for_all_ways(const WaveReading& reading, const std::vector<dou
 
 WaveGrid make_grid()
 {
-    constexpr double at_rest = 0.5;
-    constexpr double shifted = 0.3;
-    constexpr double undone = 0.2;
+    constexpr double at_rest = 0.25; // it is read by itself too, and needs the least
+    constexpr double shifted = 0.5;
+    constexpr double undone = 0.25;
     WaveGrid grid;
     grid.step = 0.2;
     const auto take_logarithms = [&](std::size_t first_row, double share) {
@@ -295,7 +298,7 @@ WaveReading read_waves(WaveSpectra& spectra, const WavePlan& plan, const WaveRea
     const int ways_round = orientations * (options.mirrored ? 2 : 1);
     double rung_sum = 0;
     for (int j = -options.rungs; j <= options.rungs; ++j)
-        rung_sum += std::exp2(-std::abs(j));
+        rung_sum += std::pow(rung_fall, std::abs(j));
 
     WaveReading reading;
     reading.grid = &wave_grid();
@@ -306,8 +309,8 @@ WaveReading read_waves(WaveSpectra& spectra, const WavePlan& plan, const WaveRea
             view.mirrored = way >= orientations;
             view.rung = own_rung + j;
             view.step = std::exp2(view.rung / 2.0);
-            const double share = ways_round == 1 ? 1 : way == 0 ? 0.5 : 0.5 / (ways_round - 1);
-            view.log_weight = std::log(share * std::exp2(-std::abs(j)) / rung_sum);
+            const double share = ways_round == 1 ? 1 : way == 0 ? plain_share : (1 - plain_share) / (ways_round - 1);
+            view.log_weight = std::log(share * std::pow(rung_fall, std::abs(j)) / rung_sum);
             const auto part = [&](const WaveSpectra::Spectrum& all) {
                 std::vector<std::complex<double>> own(count);
                 for (std::size_t k = 0; k < count; ++k)
@@ -414,7 +417,7 @@ WaveMatch wave_match(const WaveReading& reading, const WavePresence& presence, c
         }
     });
 
-    constexpr std::size_t most = 64;
+    constexpr std::size_t most = 3; // by a rough bound the best are the best
     const std::size_t some = std::min(most, parts.size());
     std::partial_sort(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(some), parts.end(),
                       [](const Part& a, const Part& b) { return a.rough < b.rough; });
@@ -426,7 +429,7 @@ WaveMatch wave_match(const WaveReading& reading, const WavePresence& presence, c
             l[k] = cosine(2 * pi * l[k]);
             sum += signs[k] * l[k];
         }
-        const double log_p = log_tail_of_signs(l, sum) - parts[i].log_weight;
+        const double log_p = SignTail(l).log10_p(sum) * std::log(10.0) - parts[i].log_weight;
         if (i == 0 || log_p < result.log_p) {
             result.log_p = log_p;
             result.way = parts[i].way;

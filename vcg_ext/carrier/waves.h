@@ -51,7 +51,7 @@ struct WaveView {
 
 /// Which shifts (t, u) a reading tries, and their weights, which sum to 1: fixed before looking.
 ///
-/// Half of the weight is for the body as it is. The next part is for shifts by t along `bend` and u along `relax`. The
+/// A quarter of the weight is for the body as it is. Half is for shifts by t along `bend` and u along `relax`. The
 /// last is for smoothing with uniform weights, (1 + lambda L)^k: it is undone for products lambda k of a given list by
 /// six terms of the binomial series of (1 + lambda L)^-k, lambda = 1/2; there `t` shifts a little along `bend`.
 struct WaveGrid {

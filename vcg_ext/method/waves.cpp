@@ -3,6 +3,7 @@
 
 #include "wave_embedding.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -14,7 +15,8 @@ constexpr int rungs_at_rest = 9;   ///< each way from the usual strength: a fact
 constexpr int rungs_processed = 3; ///< the same where processing is allowed for: 3.5e-5 to 2.8e-4
 constexpr int many_waves = 128;    ///< above it only the rungs next to the usual one, for the time it takes
 constexpr int most_ways = 4;
-constexpr double sure = -9; ///< log10 of presence: no need to look at what processing may have done
+constexpr double rest_share = 0.25; ///< of the doubt, for the reading at rest; the other has the rest
+constexpr double sure = -9;         ///< log10 of presence: no need to look at what processing may have done
 
 /// A reading and what it says by the key alone; shared by who asks about expected bits later.
 struct Read {
@@ -25,6 +27,16 @@ struct Read {
 double log10_of(double natural)
 {
     return natural / std::log(10.0);
+}
+
+/// log10 of the least of the readings' probabilities, each over its share.
+template <class LogP>
+double best_of(const std::vector<std::shared_ptr<const Read>>& all, const LogP& log_p)
+{
+    double best = 0;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        best = std::min(best, log10_of(log_p(*all[i])) - std::log10(i == 0 ? rest_share : 1 - rest_share));
+    return best;
 }
 
 } // namespace
@@ -54,25 +66,25 @@ Readings read_by_waves(const Surface& /*surface*/, const Plan& plan, const MarkF
         result->presence = wave_presence(result->reading);
         return result;
     };
-    std::shared_ptr<const Read> found = read(true, rungs_at_rest);
-    if (log10_of(found->presence.log_p) > sure && !plan.options.quick) {
-        std::shared_ptr<const Read> processed = read(false, plan.options.bits <= many_waves ? rungs_processed : 1);
-        if (processed->presence.log_p < found->presence.log_p)
-            found = std::move(processed);
-    }
-    const double half = std::log10(2.0); // two readings, each with half of the doubt
+    std::vector<std::shared_ptr<const Read>> all{read(true, rungs_at_rest)};
+    if (log10_of(all.front()->presence.log_p) > sure && !plan.options.quick)
+        all.push_back(read(false, plan.options.bits <= many_waves ? rungs_processed : 1));
+    const Read& found = **std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
+        return a->presence.log_evidence < b->presence.log_evidence; // neither looks at bits
+    });
     Readings readings;
     readings.in_log_likelihoods = true;
-    for (WaveSoft& way : wave_ways(found->reading, found->presence, most_ways)) {
+    for (WaveSoft& way : wave_ways(found.reading, found.presence, most_ways)) {
         Reading reading;
         reading.weight = way.weight;
         reading.erased.assign(way.soft.size(), 0);
         reading.soft = std::move(way.soft);
         readings.ways.push_back(std::move(reading));
     }
-    readings.presence = std::min(0.0, log10_of(found->presence.log_p) + half);
-    readings.match = [found, half](const Bits& coded) {
-        return std::min(0.0, log10_of(wave_match(found->reading, found->presence, coded).log_p) + half);
+    readings.presence = best_of(all, [](const Read& one) { return one.presence.log_p; });
+    // Where phases do not gather visibly, only the message tells which reading is the better one.
+    readings.match = [all](const Bits& coded) {
+        return best_of(all, [&](const Read& one) { return wave_match(one.reading, one.presence, coded).log_p; });
     };
     return readings;
 }

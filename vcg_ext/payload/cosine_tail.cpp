@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sum_tails.h"
+#include "cosine_tail.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,13 +40,6 @@ Bessel bessel(double x)
         i1 += term1;
     }
     return {x - std::log(2 * pi * x) / 2 + std::log(i0), i1 / i0};
-}
-
-/// log cosh x without overflow.
-double log_cosh(double x)
-{
-    x = std::abs(x);
-    return x + std::log1p(std::exp(-2 * x)) - 0.6931471805599453;
 }
 
 /// Least of `value(t)` over t >= 0, convex, its derivative `slope(t)`; the bound holds at any t, so near is enough.
@@ -104,34 +97,6 @@ const CosineTail& cosine_tail(int n)
     const std::lock_guard<std::mutex> lock(guard);
     const auto found = tables.find(n);
     return found != tables.end() ? found->second : tables.emplace(n, CosineTail(n)).first->second;
-}
-
-double log_tail_of_signs(const std::vector<double>& l, double sum)
-{
-    double all = 0;
-    double squares = 0;
-    for (const double x : l) {
-        all += std::abs(x);
-        squares += x * x;
-    }
-    if (!(sum > 0))
-        return 0;
-    if (sum > all * (1 + 1e-12)) // cannot be
-        sum = all;
-    const double s = std::min(sum, all * (1 - 1e-12));
-    const auto slope = [&](double t) {
-        double d = -s;
-        for (const double x : l)
-            d += x * std::tanh(t * x);
-        return d;
-    };
-    const auto value = [&](double t) {
-        double v = -t * s;
-        for (const double x : l)
-            v += log_cosh(t * x);
-        return v;
-    };
-    return least(s / squares, slope, value);
 }
 
 } // namespace vcg_ext

@@ -35,8 +35,4 @@ private:
 /// The table for `n`, made once.
 [[nodiscard]] const CosineTail& cosine_tail(int n);
 
-/// Natural logarithm of an upper bound of P(s_1 l_1 + ... + s_n l_n >= sum), the signs s_k fair coins: the least over
-/// t >= 0 of sum of log cosh(t l_k), less t sum. 0 where `sum` is not positive.
-[[nodiscard]] double log_tail_of_signs(const std::vector<double>& l, double sum);
-
 } // namespace vcg_ext
