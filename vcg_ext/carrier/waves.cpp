@@ -7,8 +7,8 @@
 #include "../geometry/turns.h"
 #include "../geometry/wave_sums.h"
 #include "../key/random.h"
-#include "../payload/evidence.h"
 #include "../payload/cosine_tail.h"
+#include "../payload/evidence.h"
 #include "wave_spectra.h"
 
 #include <algorithm>

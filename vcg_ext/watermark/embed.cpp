@@ -12,6 +12,7 @@
 #include "secrets.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 
 namespace vcg_ext {
@@ -60,42 +61,6 @@ void take_up(const Marking& marking, EmbedReport& result)
     result.warnings.insert(result.warnings.end(), marking.warnings.begin(), marking.warnings.end());
 }
 
-/// All layers of the method, the one on top of the other. \return the positions
-Points put_on(const Cover& cover, const Key& key, const EmbedOptions& options, const Bits& coded, EmbedReport& result,
-              const Progress& progress)
-{
-    const MethodRow& wanted = row_of(options.carriers.method);
-    Surface marked;
-    std::optional<Cover> below;
-    std::string refusals;
-    for (std::size_t i = 0; i < wanted.layers.size(); ++i) {
-        const auto& [method, strength] = wanted.layers[i];
-        if (i == 1)
-            below.emplace(marked);
-        try {
-            Marking marking =
-                mark(below ? *below : cover, key, row_of(method), options, coded, strength, result.trim, progress);
-            result.layers.push_back(method);
-            take_up(marking, result);
-            marked = {std::move(marking.kept.points), cover.triangles};
-        } catch (const Cancelled&) {
-            throw;
-        } catch (const Error& error) {
-            if (i == 0)
-                throw;
-            refusals += std::string(" ") + name(method) + ": " + error.what();
-            continue;
-        }
-        if (i > 0)
-            return marked.points;
-    }
-    if (!refusals.empty())
-        result.warnings.push_back(std::string("Only ") + name(result.layers.front()) +
-                                  " fits on this mesh, so strong noise and coarse quantization will erase the mark." +
-                                  refusals);
-    return marked.points;
-}
-
 /// Reads back what was embedded, layer by layer: the part of the carriers that hold their bits. Blind, unless the
 /// body's ends can only be told apart by the message.
 double self_check(const Surface& marked, const Key& key, const EmbedOptions& options, EmbedReport& result,
@@ -117,6 +82,48 @@ double self_check(const Surface& marked, const Key& key, const EmbedOptions& opt
         worst = std::min(worst, ratio);
     }
     return worst;
+}
+
+/// All layers of the method, the one on top of the other, so far as each leaves those below it readable.
+/// \param check of positions with `result.layers` on them: the part of the carriers that hold their bits
+/// \return the positions
+Points put_on(const Cover& cover, const Key& key, const EmbedOptions& options, const Bits& coded, EmbedReport& result,
+              const std::function<double(const Points&)>& check, const Progress& progress)
+{
+    const MethodRow& wanted = row_of(options.carriers.method);
+    Surface marked;
+    std::optional<Cover> below;
+    std::string refusals;
+    for (std::size_t i = 0; i < wanted.layers.size(); ++i) {
+        const auto& [method, strength] = wanted.layers[i];
+        if (i == 1)
+            below.emplace(marked);
+        try {
+            Marking marking =
+                mark(below ? *below : cover, key, row_of(method), options, coded, strength, result.trim, progress);
+            result.layers.push_back(method);
+            if (i > 0 && check(marking.kept.points) < 1)
+                throw Error("It would not read back, or spoil what lies below.");
+            take_up(marking, result);
+            if (i > 0)
+                return marking.kept.points;
+            marked = {std::move(marking.kept.points), cover.triangles};
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const Error& error) {
+            if (i == 0)
+                throw;
+            result.layers.resize(1);
+            refusals += std::string(" ") + name(method) + ": " + error.what();
+        }
+    }
+    if (!refusals.empty())
+        result.warnings.push_back(std::string("Only ") + name(result.layers.front()) +
+                                  " fits on this mesh, so strong noise and coarse quantization will erase the mark." +
+                                  refusals);
+    if (check(marked.points) < 1)
+        throw DoesNotFit("The blind self-check did not read every bit back.", result.capacity);
+    return marked.points;
 }
 
 /// What a reader has to set, in one sentence.
@@ -161,16 +168,21 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     result.strength = options.placement.strength;
     result.carriers = options.carriers.bits;
     const Cover cover(welded.surface);
-    Points placed = put_on(cover, key, options, result.bits, result, progress);
-    result.seconds["placement"] = watch.lap();
-
-    report(progress, 85, "Checking blind");
-    const Points stored = options.placement.storage == Storage::Float ? rounded_to_float(placed) : std::move(placed);
+    const auto as_stored = [&](const Points& placed) {
+        return options.placement.storage == Storage::Float ? rounded_to_float(placed) : placed;
+    };
+    const auto check = [&](const Points& placed) {
+        result.seconds["placement"] += watch.lap();
+        const Surface marked{unweld(surface.points, welded.site_of_vertex, as_stored(placed)), surface.triangles};
+        const std::size_t warnings = result.warnings.size();
+        result.detection_ratio = self_check(marked, key, options, result, progress);
+        if (result.detection_ratio < 1)
+            result.warnings.resize(warnings);
+        result.seconds["check"] += watch.lap();
+        return result.detection_ratio;
+    };
+    const Points stored = as_stored(put_on(cover, key, options, result.bits, result, check, progress));
     Surface marked{unweld(surface.points, welded.site_of_vertex, stored), surface.triangles};
-    result.detection_ratio = self_check(marked, key, options, result, progress);
-    if (result.detection_ratio < 1)
-        throw DoesNotFit("The blind self-check did not read every bit back.", result.capacity);
-    result.seconds["check"] = watch.lap();
 
     report(progress, 95, "Measuring");
     result.moved_vertices = moved_count(surface.points, marked.points);
