@@ -2,6 +2,7 @@
 #include "vcg_ext/metric/bend.h"
 
 #include "support/shapes.h"
+#include "vcg_ext/geometry/normals.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@ constexpr double degree = 3.14159265358979323846 / 180;
 double bend(const Surface& before, const Surface& after)
 {
     const VertexFaces around = vertex_faces(static_cast<int>(before.points.size()), before.triangles);
-    return largest_bend(before.points, after.points, before.triangles, around);
+    return largest_bend(face_normals(before.points, before.triangles), after.points, before.triangles, around);
 }
 
 TEST(Bend, OfASquareIsTheAngleOfItsFold)

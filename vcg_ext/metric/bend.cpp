@@ -2,6 +2,7 @@
 #include "bend.h"
 
 #include "../base/parallel.h"
+#include "../geometry/normals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,14 +13,6 @@ namespace {
 
 constexpr double degree = 3.14159265358979323846 / 180;
 
-/// Angle between the faces' normals, in degrees; 0 where one has none.
-double angle(const Points& points, const Triangle& a, const Triangle& b)
-{
-    const Point m = scaled_normal(points, a);
-    const Point n = scaled_normal(points, b);
-    return std::atan2(m.cross(n).norm(), m.dot(n)) / degree;
-}
-
 bool has(const Triangle& t, int v)
 {
     return std::find(t.begin(), t.end(), v) != t.end();
@@ -27,19 +20,21 @@ bool has(const Triangle& t, int v)
 
 } // namespace
 
-double largest_bend(const Points& before, const Points& after, const std::vector<Triangle>& triangles,
+double largest_bend(const Points& normals, const Points& after, const std::vector<Triangle>& triangles,
                     const VertexFaces& around)
 {
-    constexpr double coplanar = 0.1;
-    return ordered_maximum(static_cast<int>(triangles.size()), 0.0, [&](int f) {
+    const double coplanar = std::cos(0.1 * degree);
+    const Points now = face_normals(after, triangles);
+    const double most = ordered_maximum(static_cast<int>(triangles.size()), -1.0, [&](int f) {
         const Triangle& t = triangles[f];
-        double largest = 0;
+        double largest = -1; // of minus the cosines
         for (int k = 0; k < 3; ++k)
             for (const int* g = around.begin(t[k]); g != around.end(t[k]); ++g)
-                if (*g > f && has(triangles[*g], t[(k + 1) % 3]) && angle(before, t, triangles[*g]) < coplanar)
-                    largest = std::max(largest, angle(after, t, triangles[*g]));
+                if (*g > f && normals[f].dot(normals[*g]) > coplanar && has(triangles[*g], t[(k + 1) % 3]))
+                    largest = std::max(largest, -now[f].dot(now[*g]));
         return largest;
     });
+    return std::acos(std::clamp(-most, -1.0, 1.0)) / degree;
 }
 
 } // namespace vcg_ext
