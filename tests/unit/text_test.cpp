@@ -23,4 +23,11 @@ TEST(Text, IsShortAndReadsBackAsTheNumber)
         EXPECT_EQ(std::stod(text(number)), number);
 }
 
+TEST(Text, AChanceIsRoundedUp)
+{
+    EXPECT_EQ(chance(-6), "p 1e-6");
+    EXPECT_EQ(chance(-6.9), "p 1e-6");
+    EXPECT_EQ(chance(-400.5), "p 1e-400");
+}
+
 } // namespace

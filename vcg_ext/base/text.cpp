@@ -24,4 +24,9 @@ std::string text(double number)
     }
 }
 
+std::string chance(double log10_p)
+{
+    return "p 1e" + std::to_string(static_cast<int>(std::ceil(log10_p)));
+}
+
 } // namespace vcg_ext

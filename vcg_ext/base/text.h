@@ -8,4 +8,7 @@ namespace vcg_ext {
 /// point. 0.1 is "0.1", 1e-7 is "1e-07".
 [[nodiscard]] std::string text(double number);
 
+/// A probability as verdicts have it, rounded up to a power of ten so that it stays a bound: "p 1e-6".
+[[nodiscard]] std::string chance(double log10_p);
+
 } // namespace vcg_ext

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace vcg_ext {
@@ -115,9 +116,10 @@ double mean_strength(const LayerReading& layer)
     return sum;
 }
 
+/// Never 0, which would be no bound.
 double probability(double log10_p)
 {
-    return std::pow(10.0, log10_p);
+    return std::max(std::pow(10.0, log10_p), std::numeric_limits<double>::min());
 }
 
 /// All of one count of carriers that is worth comparing with others.
@@ -182,7 +184,6 @@ void conclude(const DetectOptions& options, const Trial& trial, double log10_any
     result.verified = log10_any < sure;
     if (result.verified)
         result.message = show_message(judgement.best.bits, judgement.best.kind);
-    const auto chance = [](double log10_p) { return "p 1e" + std::to_string(static_cast<int>(std::ceil(log10_p))); };
     if (asked) {
         const bool same = raw || !result.verified || trimmed(judgement.best.bits) == trimmed(expected->bits);
         result.p_value = probability(log10_expected);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rehearse.h"
 
+#include "../base/text.h"
 #include "detect.h"
 
 #include <cmath>
@@ -40,8 +41,8 @@ std::string summary(const std::vector<Rehearsal>& rehearsals)
     std::string lost;
     for (const Rehearsal& one : rehearsals)
         if (one.present)
-            survived += (survived.empty() ? "" : ", ") + std::string(one.name) + " (p 1e" +
-                        std::to_string(static_cast<int>(std::ceil(std::log10(one.p_value)))) + ")";
+            survived +=
+                (survived.empty() ? "" : ", ") + std::string(one.name) + " (" + chance(std::log10(one.p_value)) + ")";
         else
             lost += (lost.empty() ? "" : ", ") + std::string(one.name);
     std::string text = survived.empty() ? "" : "survives " + survived;
