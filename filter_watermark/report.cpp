@@ -60,10 +60,11 @@ Json to_json(const vcg_ext::EmbedReport& report, const std::vector<vcg_ext::Rehe
         {"mrms", report.mrms},
         {"mrms_relative", report.mrms_relative},
         {"diagonal", report.diagonal},
-        {"plane_bend", report.plane_bend},
         {"change", change(report)},
         {"seconds", report.seconds},
     };
+    if (report.plane_bend)
+        json["plane_bend"] = *report.plane_bend;
     if (report.solver) {
         json["solver"] = {{"mean_iterations", report.solver->mean_iterations},
                           {"max_iterations", report.solver->max_iterations},

@@ -72,7 +72,7 @@ def test_the_report_has_all_results(tmp_path: Path) -> None:
     assert list(report) == [
         "method", "statistic", "message", "bits", "strength", "trim", "carriers", "layers", "samples_min", "capacity",
         "detection_ratio", "rounds", "moved_vertices", "guarded_vertices", "max_displacement", "mrms", "mrms_relative",
-        "diagonal", "plane_bend", "change", "seconds", "solver", "version", "warnings", "recipe",
+        "diagonal", "change", "seconds", "solver", "version", "warnings", "recipe",
     ]  # fmt: skip
     assert report["method"] == "L-M"
     assert report["statistic"] == "Mean"

@@ -27,6 +27,7 @@ struct MethodRow {
     /// with its strength (0: the user's). Itself alone for all but Layered, whose functions are empty but for strength.
     std::vector<std::pair<Method, double>> layers;
     bool has_statistic; ///< whether Statistic matters
+    bool is_smooth;     ///< moves the surface by a smooth field: how well planes stay planes is reported
     /// Mean soft value, in standard errors, that no unmarked mesh has; 0 where that tells nothing.
     double unmarked_strength;
     StrengthRange (*strength)(Statistic statistic);

@@ -190,7 +190,8 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     result.mrms = local_mrms(welded.surface.points, stored, welded.surface.triangles, cover.around);
     result.diagonal = bounding_diagonal(welded.surface);
     result.mrms_relative = result.mrms / result.diagonal;
-    result.plane_bend = largest_bend(cover.normals, stored, welded.surface.triangles, cover.around);
+    if (row_of(result.method).is_smooth)
+        result.plane_bend = largest_bend(cover.normals, stored, welded.surface.triangles, cover.around);
     result.recipe = recipe_of(options);
     warn(options, result);
     result.seconds["measure"] = watch.lap();

@@ -29,7 +29,7 @@ struct EmbedReport {
     double mrms = 0;
     double mrms_relative = 0;              ///< over the bounding box's diagonal
     double diagonal = 0;                   ///< of the cover's bounding box, in the mesh's unit
-    double plane_bend = 0;                 ///< degrees: see largest_bend()
+    std::optional<double> plane_bend;      ///< degrees, of smooth methods: see largest_bend()
     std::map<std::string, double> seconds; ///< by phase
     std::optional<SolverSummary> solver;   ///< Method::LM only
     std::optional<MoveCounts> moves;       ///< Method::Geodesic only
