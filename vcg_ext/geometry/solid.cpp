@@ -2,6 +2,7 @@
 #include "solid.h"
 
 #include "../base/parallel.h"
+#include "solid_moments.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -191,44 +192,6 @@ std::vector<int> sew(const Points& points, const std::vector<EdgeUse>& edges, do
     return site;
 }
 
-/// Moments of a solid about a point up to the third degree, not divided by the volume.
-struct Moments {
-    double volume = 0;
-    Point first = Point::Zero();
-    Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-    std::array<Eigen::Matrix3d, 3> third{Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()};
-
-    Moments& operator+=(const Moments& other)
-    {
-        volume += other.volume;
-        first += other.first;
-        second += other.second;
-        for (int i = 0; i < 3; ++i)
-            third[i] += other.third[i];
-        return *this;
-    }
-};
-
-/// Takes up the tetrahedron over the origin: integrals of products of linear functions over a simplex.
-void take(Moments& m, const Eigen::Matrix3d& p)
-{
-    const double v = p.col(0).dot(p.col(1).cross(p.col(2))) / 6;
-    const Point sum = p.rowwise().sum();
-    const Eigen::Matrix3d pp = p * p.transpose();
-    m.volume += v;
-    m.first += v / 4 * sum;
-    m.second += v / 20 * (pp + sum * sum.transpose());
-    // Polarised h_3 = (s^3 + 3 s p2 + 2 p3) / 6 over 20.
-    for (int i = 0; i < 3; ++i) {
-        Eigen::Matrix3d cubes = Eigen::Matrix3d::Zero();
-        for (int corner = 0; corner < 3; ++corner)
-            cubes += p(i, corner) * (p.col(corner) * p.col(corner).transpose());
-        m.third[i] += v / 120 *
-                      (sum[i] * (sum * sum.transpose()) + sum[i] * pp + sum * pp.row(i) + pp.col(i) * sum.transpose() +
-                       2 * cubes);
-    }
-}
-
 } // namespace
 
 SolidTopology solid_topology(const Surface& surface)
@@ -313,23 +276,17 @@ void place_apexes(const SolidTopology& topology, Points& points)
 
 Frame solid_frame(const Points& points, const std::vector<Triangle>& triangles)
 {
-    const int count = static_cast<int>(triangles.size());
-    Eigen::AlignedBox3d box;
-    for (const Triangle& t : triangles)
-        for (const int v : t)
-            box.extend(points[v]);
+    const Eigen::AlignedBox3d box = ordered_fold(
+        static_cast<int>(triangles.size()), Eigen::AlignedBox3d(),
+        [&](Eigen::AlignedBox3d& sum, int f) {
+            for (const int v : triangles[f])
+                sum.extend(points[v]);
+        },
+        [](Eigen::AlignedBox3d& sum, const Eigen::AlignedBox3d& part) { sum.extend(part); });
     if (box.isEmpty())
         return {};
     const Point near = box.center(); // moments about a point far away cancel badly
-    const Moments m = ordered_fold(
-        count, Moments{},
-        [&](Moments& sum, int f) {
-            Eigen::Matrix3d p;
-            for (int k = 0; k < 3; ++k)
-                p.col(k) = points[triangles[f][k]] - near;
-            take(sum, p);
-        },
-        [](Moments& sum, const Moments& part) { sum += part; });
+    const SolidMoments m = solid_moments(points, triangles, near);
     if (!(std::abs(m.volume) > 1e-9 * std::pow(box.diagonal().norm(), 3)))
         return {};
     Frame frame;

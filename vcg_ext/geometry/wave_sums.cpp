@@ -148,6 +148,10 @@ constexpr int products = 55; ///< monomials of q from degree 1 to 5
 constexpr int lanes = 4;
 /// One value a wave, as the compiler's own vector: it does not see by itself which loop to vectorise here.
 using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
+/// As it may stand in a std::vector: by itself it is aligned as the build's processor asks, AVX2's copies expect more.
+struct alignas(lanes * sizeof(double)) StoredLanes {
+    Lanes value;
+};
 constexpr double size = 0.8; ///< edge of a cell over the shortest wave's 1 / |q|
 
 struct Exponents {
@@ -200,10 +204,10 @@ struct Table {
 constexpr Table table;
 
 /// Products of each group of waves: [group][product].
-std::vector<Lanes> wave_products(const Columns& q)
+std::vector<StoredLanes> wave_products(const Columns& q)
 {
     const std::size_t groups = (q.count + lanes - 1) / lanes;
-    std::vector<Lanes> result(groups * products, Lanes{});
+    std::vector<StoredLanes> result(groups * products, StoredLanes{});
     for (std::size_t k = 0; k < q.count; ++k) {
         double power[3][degree + 2];
         for (int axis = 0; axis < 3; ++axis) {
@@ -213,7 +217,7 @@ std::vector<Lanes> wave_products(const Columns& q)
                 power[axis][e] = power[axis][e - 1] * base;
         }
         for (int i = 0; i < products; ++i)
-            result[k / lanes * products + i][k % lanes] =
+            result[k / lanes * products + i].value[k % lanes] =
                 power[0][of_q[i].x] * power[1][of_q[i].y] * power[2][of_q[i].z];
     }
     return result;
@@ -266,16 +270,16 @@ struct Sources {
 };
 
 /// Adds exp(i q . centre) times the polynomial, for all waves.
-void add(const Columns& q, const std::vector<Lanes>& powers, const Point& centre, const std::array<double, products>& c,
-         Sums& sums)
+void add(const Columns& q, const std::vector<StoredLanes>& powers, const Point& centre,
+         const std::array<double, products>& c, Sums& sums)
 {
     for (std::size_t first = 0; first < q.count; first += lanes) {
-        const Lanes* power = powers.data() + first / lanes * products;
+        const StoredLanes* power = powers.data() + first / lanes * products;
         Lanes real{};
         Lanes imaginary{};
         const auto take = [&](Lanes& to, int begin, int end) {
             for (int i = begin; i < end; ++i)
-                to += c[i] * power[i];
+                to += c[i] * power[i].value;
         };
         take(real, 0, 3); // degrees 1, 3 and 5 of q are even ones of x
         take(imaginary, 3, 9);
@@ -372,7 +376,7 @@ VCG_EXT_VECTORIZED void add_triangle(const Columns& q, const Points& points, con
 }
 
 /// Adds the cell's small triangles, all of them together.
-VCG_EXT_VECTORIZED void add_cell(const Columns& q, const std::vector<cells::Lanes>& powers, const Points& points,
+VCG_EXT_VECTORIZED void add_cell(const Columns& q, const std::vector<cells::StoredLanes>& powers, const Points& points,
                                  const std::vector<Triangle>& triangles, const cells::Grid& grid, int cell,
                                  double largest, Sums& sums)
 {
@@ -421,7 +425,7 @@ std::vector<std::complex<double>> solid_transform(const Points& points, const st
         grid = cells::sort(points, triangles, cells::size / largest, own);
     else
         std::fill(own.begin(), own.end(), -1);
-    const std::vector<cells::Lanes> powers = cells::wave_products(q);
+    const std::vector<cells::StoredLanes> powers = cells::wave_products(q);
     const int cell_count = static_cast<int>(grid.centres.size());
     const int triangle_parts = (count + chunk - 1) / chunk;
     const int cell_parts = (cell_count + cells_chunk - 1) / cells_chunk;
