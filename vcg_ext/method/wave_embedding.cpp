@@ -87,11 +87,17 @@ WaveEmbedding embed_waves(const Cover& cover, const WavePlan& plan, const Bits& 
         report(progress, 100 * turn / (most_rounds + 1), "Waves");
         Points placed = turn == 0 ? cover.points : place(offset);
         const std::vector<double> now = values_now(body, placed, plan);
-        if (target.empty())
+        if (target.empty()) {
+            std::vector<double> change;
             for (int k = 0; k < waves; ++k) {
                 const double shift = plan.dithers[k] + coded[k] * 0.5;
-                target.push_back(result.step * (std::round(now[k] / result.step - shift) + shift));
+                const double beyond = now[k] / result.step - shift;
+                change.push_back(result.step * (std::round(beyond) - beyond));
             }
+            change = field.cheapest(std::move(change), result.step);
+            for (int k = 0; k < waves; ++k)
+                target.push_back(now[k] + change[k]);
+        }
         std::vector<double> missing(waves);
         double worst = 0;
         int wave = 0;

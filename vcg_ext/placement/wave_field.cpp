@@ -158,6 +158,51 @@ std::vector<double> WaveField::least(const std::vector<double>& change) const
     return field;
 }
 
+std::vector<double> WaveField::cheapest(std::vector<double> change, double step) const
+{
+    // The field's square is change^T P change: a whole step at a time, and two at once, as long as that makes it less.
+    const int count = plan_.count();
+    const Eigen::MatrixXd p = solver_.solve(Eigen::MatrixXd::Identity(count, count));
+    Eigen::VectorXd slope = p * Eigen::Map<const Eigen::VectorXd>(change.data(), count);
+    const auto gain = [&](int k, double sign) { return sign * 2 * step * slope[k] + step * step * p(k, k); };
+    const auto move = [&](int k, double sign) {
+        change[k] += sign * step;
+        slope += sign * step * p.col(k);
+    };
+    for (int turn = 0; turn < 100 * count; ++turn) {
+        double best = -1e-9 * step * step * p.trace();
+        int first = -1;
+        int second = -1;
+        double signs[2] = {0, 0};
+        for (int k = 0; k < count; ++k)
+            for (const double sign : {-1.0, 1.0}) {
+                const double one = gain(k, sign);
+                if (one < best) {
+                    best = one;
+                    first = k;
+                    second = -1;
+                    signs[0] = sign;
+                }
+                for (int l = 0; l < k; ++l)
+                    for (const double other : {-1.0, 1.0})
+                        if (const double both = one + gain(l, other) + 2 * sign * other * step * step * p(k, l);
+                            both < best) {
+                            best = both;
+                            first = k;
+                            second = l;
+                            signs[0] = sign;
+                            signs[1] = other;
+                        }
+            }
+        if (first < 0)
+            break;
+        move(first, signs[0]);
+        if (second >= 0)
+            move(second, signs[1]);
+    }
+    return change;
+}
+
 double WaveField::reach(int wave) const
 {
     return gram_(wave, wave) / (area_ / 2);

@@ -21,6 +21,10 @@ public:
     /// s per site. \param change dm, per wave
     [[nodiscard]] std::vector<double> least(const std::vector<double>& change) const;
 
+    /// Of all changes that differ from `change` by whole steps one whose least field is small: each wave's nearest
+    /// target is not the nearest for all, where waves are alike on this surface.
+    [[nodiscard]] std::vector<double> cheapest(std::vector<double> change, double step) const;
+
     /// How much of a wave this mesh can make: 1 where its faces are small against the wave, to 0.
     [[nodiscard]] double reach(int wave) const;
 
