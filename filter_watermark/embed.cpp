@@ -76,7 +76,7 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
         options.carriers.bits = embedded.carriers;
         rehearsals = rehearse(surface, key, options.carriers, options.message, vcg_ext::within(progress, 50, 100));
     }
-    const Json report = to_json(embedded, rehearsals);
+    Json report = to_json(embedded, rehearsals);
     file.write(report);
     write_positions(layer, surface.points);
     return report;

@@ -43,7 +43,7 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
 
     const vcg_ext::DistortionReport report =
         measure(read_surface(reference->cm), read_surface(layer.cm), options, progress);
-    const Json results = to_json(report);
+    Json results = to_json(report);
     file.write(results);
     write_distances(layer, report.distance);
     return results;

@@ -6,7 +6,7 @@
 // Each key draws its mask by itself and, in a row, looks at one mesh only: so a row's detections are independent. Of 20
 // keys ten ask for one message in 64 carriers, nine for a list of eight, one for nothing at any number of carriers. On
 // unmarked meshes L-M, QSP and Cho read alike, so L-M alone stands for them.
-// Usage: false_alarms [KEYS A ROW] [METHOD]    (1,400 without: some 20,000 keys; Waves and Layered take a tenth of them)
+// Usage: false_alarms [KEYS A ROW] [METHODS]    (1,400 without: some 20,000 keys; Waves and Layered take a tenth of them)
 
 #include "support/load.h"
 #include "vcg_ext/base/error.h"
@@ -137,7 +137,7 @@ int main(int count, char** arguments)
             for (const Statistic statistic : {Statistic::Mean, Statistic::Variance}) {
                 const bool twin = !marked && (method.method == Method::QSP || method.method == Method::Cho);
                 if (twin || (!method.has_statistic && statistic == Statistic::Variance) ||
-                    (!only.empty() && only != method.name))
+                    (!only.empty() && only.find(method.name) == std::string::npos))
                     continue;
                 EmbedOptions options;
                 options.carriers.method = method.method;

@@ -141,7 +141,7 @@ void distortion()
         for (const Statistic statistic : statistics_of_chapter_4) {
             std::map<std::string, double> mrms;
             std::map<std::string, double> msdm;
-            const auto add = [&](const std::string& what, EmbedOptions options, int key) {
+            const auto add = [&](const std::string& what, const EmbedOptions& options, int key) {
                 Surface stego = cover;
                 embed(stego, key_number(key), options);
                 const DistortionReport report = measure(cover, stego);

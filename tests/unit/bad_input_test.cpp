@@ -243,7 +243,7 @@ TEST_P(BadInput, EmbedAndDetectAnswerOrRefuse)
             DetectOptions reading;
             reading.carriers = options.carriers;
             reading.expected = {options.message};
-            const auto mark = [&](EmbedOptions wanted) {
+            const auto mark = [&](const EmbedOptions& wanted) {
                 Surface stego = cover;
                 try {
                     const EmbedReport report = embed(stego, test_key(), wanted);

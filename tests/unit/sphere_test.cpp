@@ -22,7 +22,7 @@ double least_energy(const Point& y, double norm, const Eigen::Matrix3d& energy)
 {
     using Vector = Eigen::Matrix<long double, 3, 1>;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<long double, 3, 3>> solver(energy.cast<long double>());
-    const Vector a = solver.eigenvalues();
+    const Vector& a = solver.eigenvalues();
     const Vector u = solver.eigenvectors().transpose() * y.cast<long double>();
     const auto radius = [&](long double lambda) {
         return (a.array() / (a.array() - lambda) * u.array()).matrix().norm();

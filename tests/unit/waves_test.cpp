@@ -173,17 +173,25 @@ TEST(OffsetDirections, KeepPlanesPlanarBesideCreases)
     }
 }
 
-TEST(Waves, AllAreOnTheirLattice)
+TEST(Waves, AllGoTheSamePartOfTheWayToTheirLattice)
 {
     const Marked& marked = marked_body();
     EXPECT_LT(marked.report.worst, 0.01);
     const WavePlan plan = wave_plan(test_key(), waves);
-    const WaveBody solid = wave_body(marked.stego);
-    const std::vector<double> m =
-        wave_values_of(solid_transform(solid.points, solid.topology.triangles, plan.vectors), plan.phases, false);
+    const auto values = [&](const Surface& surface) {
+        const WaveBody solid = wave_body(surface);
+        return wave_values_of(solid_transform(solid.points, solid.topology.triangles, plan.vectors), plan.phases,
+                              false);
+    };
+    const std::vector<double> before = values(marked.cover);
+    const std::vector<double> after = values(marked.stego);
+    const double part = marked.report.part;
+    EXPECT_GE(part, 0.7);
+    EXPECT_LE(part, 1);
     for (int k = 0; k < waves; ++k) {
-        const double y = m[k] / marked.report.step - plan.dithers[k] - marked.coded[k] * 0.5;
-        EXPECT_NEAR(y, std::round(y), 0.011) << k;
+        const double goal = before[k] + (after[k] - before[k]) / part;
+        const double y = goal / marked.report.step - plan.dithers[k] - marked.coded[k] * 0.5;
+        EXPECT_NEAR(y, std::round(y), 0.011 / part) << k;
     }
     EXPECT_TRUE(folded_faces(Cover(marked.cover), marked.stego.points).empty());
 }
@@ -193,7 +201,7 @@ TEST(Waves, SurviveWhatLeavesTheShape)
     const Marked& marked = marked_body();
     const Found plain = find(marked.stego, marked.coded);
     EXPECT_LT(plain.match.log_p, -18 * decade);
-    EXPECT_LT(plain.presence.log_p, -60 * decade);
+    EXPECT_LT(plain.presence.log_p, -20 * decade);
 
     const Surface moved =
         shapes::renumbered(shapes::moved(marked.stego, 7, 2.1, Point(2, -1, 2) / 3, {30, -20, 10}), 3);
@@ -232,15 +240,16 @@ TEST(Waves, SurviveRemeshingAndSmoothing)
     }
 }
 
-TEST(Waves, AFirstLookAtRestSeesWhatTheWholeReadingSees)
+TEST(Waves, AFirstLookAtRestIsAPartOfTheWholeReading)
 {
     const Marked& marked = marked_body();
     WaveReadOptions at_rest;
     at_rest.at_rest_only = true;
     const Found quick = find(marked.stego, marked.coded, test_key(), at_rest);
     const Found whole = find(marked.stego, marked.coded);
-    EXPECT_EQ(quick.presence.log_p, whole.presence.log_p);
-    EXPECT_EQ(quick.match.sum, whole.match.sum);
+    EXPECT_LT(quick.presence.log_p, -20 * decade);
+    EXPECT_LE(whole.presence.log_p, quick.presence.log_p);
+    EXPECT_LT(quick.match.log_p, -18 * decade);
 }
 
 /// Round but for its lobes, so two of its variances are equal; another at each end.
@@ -280,7 +289,8 @@ TEST(Waves, SoftValuesHaveTheSignsOfTheBits)
     const WavePresence presence = wave_presence(reading);
     const std::vector<WaveSoft> ways = wave_ways(reading, presence, 10);
     ASSERT_FALSE(ways.empty());
-    EXPECT_GT(ways[0].weight, 0.5);
+    for (std::size_t i = 1; i < ways.size(); ++i)
+        EXPECT_GE(ways[i - 1].weight, ways[i].weight);
     for (int k = 0; k < waves; ++k)
         EXPECT_EQ(ways[0].soft[k] > 0, marked.coded[k] == 1);
     double sum = 0;
@@ -345,7 +355,7 @@ TEST(Waves, RefuseWhatHasNoFrameAndWhatIsTooCoarse)
 }
 
 /// How often each claimed bound is undercut: `claims` of n detections that had no mark of that key to find.
-void expect_honest(std::vector<double> claims, const char* what)
+void expect_honest(const std::vector<double>& claims, const char* what)
 {
     for (const double level : {0.1, 0.01, 0.001}) {
         int below = 0;

@@ -20,8 +20,9 @@ namespace vcg_ext {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr double rung_fall = 1.0 / 3; ///< of the weight, from the rung that is expected to its neighbours
-constexpr double plain_share = 0.7;   ///< of the weight, for the orientation that the body itself tells
+constexpr double rungs_per_octave = 4;
+constexpr double rung_fall = 0.577; ///< of the weight, from the rung that is expected to its neighbours
+constexpr double plain_share = 0.7; ///< of the weight, for the orientation that the body itself tells
 constexpr double never = std::numeric_limits<double>::infinity();
 
 /// log(exp(a) + exp(b))
@@ -254,12 +255,13 @@ WavePlan wave_plan(const Key& key, int count)
 
 double wave_step(const WaveBody& body, double strength, int waves, int* rung)
 {
-    const double step =
-        strength * std::sqrt(12.0) * body.area * (body.diagonal / body.radius) / (4 * pi) / std::sqrt(2.0 * waves);
-    const int place = static_cast<int>(std::lround(2 * std::log2(step)));
+    constexpr double part = 0.9;
+    const double step = strength / part * std::sqrt(12.0) * body.area * (body.diagonal / body.radius) / (4 * pi) /
+                        std::sqrt(2.0 * waves);
+    const int place = static_cast<int>(std::lround(rungs_per_octave * std::log2(step)));
     if (rung)
         *rung = place;
-    return std::exp2(place / 2.0);
+    return std::exp2(place / rungs_per_octave);
 }
 
 std::vector<double> wave_values_of(const std::vector<std::complex<double>>& transform,
@@ -308,7 +310,7 @@ WaveReading read_waves(WaveSpectra& spectra, const WavePlan& plan, const WaveRea
             view.orientation = way % orientations;
             view.mirrored = way >= orientations;
             view.rung = own_rung + j;
-            view.step = std::exp2(view.rung / 2.0);
+            view.step = std::exp2(view.rung / rungs_per_octave);
             const double share = ways_round == 1 ? 1 : way == 0 ? plain_share : (1 - plain_share) / (ways_round - 1);
             view.log_weight = std::log(share * std::pow(rung_fall, std::abs(j)) / rung_sum);
             const auto part = [&](const WaveSpectra::Spectrum& all) {

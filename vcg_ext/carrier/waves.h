@@ -24,11 +24,12 @@ struct WavePlan {
 
 [[nodiscard]] WavePlan wave_plan(const Key& key, int count);
 
-/// The step D in which a displacement of `strength` (RMS over the diagonal) is to be expected, on a ladder of sqrt 2:
-/// D = strength sqrt(12) A r^-3 diagonal / (4 pi) / sqrt(2 K). A wave of amplitude a over the whole surface A changes
-/// its own m by a A / (8 pi r^3) in canonical units, targets are uniform within half a step, and K waves add up.
+/// The step D in which a displacement of `strength` (RMS over the diagonal) is to be expected if waves go nine tenths
+/// of the way to their targets, on a ladder of four rungs an octave: D = strength sqrt(12) A r^-3 diagonal / (4 pi) /
+/// sqrt(2 K) / .9. A wave of amplitude a over the whole surface A changes its own m by a A / (8 pi r^3) in canonical
+/// units, targets are uniform within half a step, and K waves add up.
 ///
-/// \param rung the result's place on the ladder: D = 2^(rung / 2)
+/// \param rung the result's place on the ladder: D = 2^(rung / 4)
 [[nodiscard]] double wave_step(const WaveBody& body, double strength, int waves, int* rung = nullptr);
 
 /// The m_k of a body's transform at its waves. \param mirrored of the body's mirror image
@@ -78,7 +79,7 @@ struct WaveReading {
 
 struct WaveReadOptions {
     double strength = 1e-4; ///< that the mark was made with, as far as the reader knows
-    int rungs = 1;          ///< how many rungs above and below its own it tries
+    int rungs = 2;          ///< how many rungs above and below its own it tries
     bool mirrored = true;   ///< mirror images too
     /// Only the body as it is, without what processing does to it: the weights are the same, so p is as true, and no
     /// lower. Some six times as fast, so worth a try first.

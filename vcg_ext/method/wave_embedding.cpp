@@ -19,7 +19,11 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr int most_rounds = 12;
 constexpr double near_enough = 0.01; ///< of a step
-constexpr double readable = 0.05;    ///< of a step: above it the mark is not worth having
+/// Of the way to its target that a wave goes at least. Where it goes less than all of it, steps are longer for the same
+/// displacement: strong attacks do less harm for what that costs where there is none (distortion-compensated QIM, Chen
+/// and Wornell 2001).
+constexpr double least_part = 0.7;
+constexpr double readable = 0.05; ///< of a step: above it the mark is not worth having
 
 /// The m_k of vertices as they are now, in the solid's own frame.
 std::vector<double> values_now(const WaveBody& body, const Points& vertices, const WavePlan& plan)
@@ -94,9 +98,11 @@ WaveEmbedding embed_waves(const Cover& cover, const WavePlan& plan, const Bits& 
                 const double beyond = now[k] / result.step - shift;
                 change.push_back(result.step * (std::round(beyond) - beyond));
             }
-            change = field.cheapest(std::move(change), result.step);
+            const double size = strength * body.diagonal / body.radius;
+            change = field.nearest_for(size, std::move(change), result.step);
+            result.part = std::clamp(size / field.size(change), least_part, 1.0);
             for (int k = 0; k < waves; ++k)
-                target.push_back(now[k] + change[k]);
+                target.push_back(now[k] + result.part * change[k]);
         }
         std::vector<double> missing(waves);
         double worst = 0;

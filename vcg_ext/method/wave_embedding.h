@@ -13,14 +13,16 @@ namespace vcg_ext {
 struct WaveEmbedding {
     Points points;    ///< marked and rounded, one a vertex of the cover
     double step = 0;  ///< D
+    double part = 0;  ///< of the way to its lattice that every m_k goes
     int rounds = 0;   ///< of the closed loop
     double worst = 0; ///< the largest distance of an m_k from its target, in steps
     double moved = 0; ///< RMS displacement over the surface, over the diagonal
     int guarded = 0;  ///< vertices held back because a face would have folded
 };
 
-/// Moves the surface by the least smooth field that puts every wave's m_k on its lattice, in a closed loop: guard
-/// against folds, round as stored, take the marked solid's own frame, correct; until every m_k is within .01 D.
+/// Moves the surface by the least smooth field that brings every wave's m_k towards its lattice, all by the same part of
+/// the way, as far as `strength` allows. In a closed loop: guard against folds, round as stored, take the marked solid's
+/// own frame, correct; until every m_k is within .01 D of where it shall be.
 ///
 /// \param cover    welded
 /// \param coded    one bit a wave: those of the message, encoded and masked

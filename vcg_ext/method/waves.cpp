@@ -11,9 +11,10 @@ namespace vcg_ext {
 
 namespace {
 
-constexpr int rungs_at_rest = 9;   ///< each way from the usual strength: a factor of 22, so 5e-6 to 2e-3
-constexpr int rungs_processed = 3; ///< the same where processing is allowed for: 3.5e-5 to 2.8e-4
-constexpr int many_waves = 128;    ///< above it only the rungs next to the usual one, for the time it takes
+constexpr int rungs_at_rest = 18;  ///< each way from the usual strength: a factor of 22, so 5e-6 to 2e-3
+constexpr int rungs_processed = 6; ///< the same where processing is allowed for: 3.5e-5 to 2.8e-4
+constexpr int rungs_of_many = 2;   ///< the same for more than
+constexpr int many_waves = 128;    ///< waves, for the time it takes
 constexpr int most_ways = 4;
 constexpr double rest_share = 0.25; ///< of the doubt, for the reading at rest; the other has the rest
 constexpr double sure = -9;         ///< log10 of presence: no need to look at what processing may have done
@@ -68,7 +69,7 @@ Readings read_by_waves(const Surface& /*surface*/, const Plan& plan, const MarkF
     };
     std::vector<std::shared_ptr<const Read>> all{read(true, rungs_at_rest)};
     if (log10_of(all.front()->presence.log_p) > sure && !plan.options.quick)
-        all.push_back(read(false, plan.options.bits <= many_waves ? rungs_processed : 1));
+        all.push_back(read(false, plan.options.bits <= many_waves ? rungs_processed : rungs_of_many));
     const Read& found = **std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
         return a->presence.log_evidence < b->presence.log_evidence; // neither looks at bits
     });

@@ -158,47 +158,60 @@ std::vector<double> WaveField::least(const std::vector<double>& change) const
     return field;
 }
 
-std::vector<double> WaveField::cheapest(std::vector<double> change, double step) const
+double WaveField::size(const std::vector<double>& change) const
 {
-    // The field's square is change^T P change: a whole step at a time, and two at once, as long as that makes it less.
+    const Eigen::VectorXd dm = 4 * pi * Eigen::Map<const Eigen::VectorXd>(change.data(), plan_.count());
+    const Eigen::VectorXd a = solver_.solve(dm);
+    return std::sqrt(a.dot(gram_ * a) / area_);
+}
+
+std::vector<double> WaveField::nearest_for(double size, std::vector<double> change, double step) const
+{
+    // A whole step at a time, or two, the best first, as long as that leaves less missing.
     const int count = plan_.count();
-    const Eigen::MatrixXd p = solver_.solve(Eigen::MatrixXd::Identity(count, count));
-    Eigen::VectorXd slope = p * Eigen::Map<const Eigen::VectorXd>(change.data(), count);
-    const auto gain = [&](int k, double sign) { return sign * 2 * step * slope[k] + step * step * p(k, k); };
-    const auto move = [&](int k, double sign) {
-        change[k] += sign * step;
-        slope += sign * step * p.col(k);
+    const Eigen::MatrixXd inverse = solver_.solve(Eigen::MatrixXd::Identity(count, count));
+    const Eigen::MatrixXd p = 16 * pi * pi / area_ * inverse * gram_ * inverse; // size squared = change^T p change
+    Eigen::Map<Eigen::VectorXd> dm(change.data(), count);
+    Eigen::VectorXd slope = 2 * p * dm;
+    double square = dm.dot(p * dm);
+    const auto missing = [&](double size_squared, double way) {
+        const double part = std::min(1.0, size / std::sqrt(size_squared));
+        return (1 - part) * (1 - part) * way;
     };
-    for (int turn = 0; turn < 100 * count; ++turn) {
-        double best = -1e-9 * step * step * p.trace();
-        int first = -1;
-        int second = -1;
-        double signs[2] = {0, 0};
-        for (int k = 0; k < count; ++k)
-            for (const double sign : {-1.0, 1.0}) {
-                const double one = gain(k, sign);
-                if (one < best) {
-                    best = one;
-                    first = k;
-                    second = -1;
-                    signs[0] = sign;
-                }
-                for (int l = 0; l < k; ++l)
-                    for (const double other : {-1.0, 1.0})
-                        if (const double both = one + gain(l, other) + 2 * sign * other * step * step * p(k, l);
-                            both < best) {
-                            best = both;
-                            first = k;
-                            second = l;
-                            signs[0] = sign;
-                            signs[1] = other;
-                        }
+    struct Move {
+        int wave = -1;
+        double by = 0;
+    };
+    for (int turn = 0; turn < 10 * count; ++turn) {
+        const double way = dm.squaredNorm();
+        double best = missing(square, way) - 1e-6 * step * step;
+        Move first, second;
+        const auto consider = [&](const Move& a, const Move& b, double size_squared, double new_way) {
+            if (const double left = missing(size_squared, new_way); left < best) {
+                best = left;
+                first = a;
+                second = b;
             }
-        if (first < 0)
+        };
+        for (int k = 0; k < count; ++k)
+            for (const double by : {-step, step}) {
+                const double one = square + by * slope[k] + by * by * p(k, k);
+                const double one_way = way + by * (2 * dm[k] + by);
+                consider({k, by}, {}, one, one_way);
+                for (int l = 0; l < k; ++l)
+                    for (const double other : {-step, step})
+                        consider({k, by}, {l, other},
+                                 one + other * slope[l] + other * other * p(l, l) + 2 * by * other * p(k, l),
+                                 one_way + other * (2 * dm[l] + other));
+            }
+        if (first.wave < 0)
             break;
-        move(first, signs[0]);
-        if (second >= 0)
-            move(second, signs[1]);
+        for (const Move& move : {first, second})
+            if (move.wave >= 0) {
+                dm[move.wave] += move.by;
+                slope += 2 * move.by * p.col(move.wave);
+            }
+        square = dm.dot(p * dm);
     }
     return change;
 }
