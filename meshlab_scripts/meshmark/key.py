@@ -59,6 +59,12 @@ class Key:
             raise MeshmarkError(f"The environment variable '{rest}', which should hold the key, is not set.") from error
         return unicodedata.normalize("NFC", self._source).encode()
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Key) and self._source == other._source
+
+    def __hash__(self) -> int:
+        return hash(self._source)
+
     def __repr__(self) -> str:
         return f"Key({self._source!r})" if self.is_reference else "Key(a passphrase)"
 

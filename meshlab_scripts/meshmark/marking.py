@@ -179,12 +179,15 @@ def _check_move(report: EmbedReport, limit: Length | None, unit: str) -> None:
     if limit is None:
         return
     most = limit.within(unit)
-    if report.max_displacement > most:
-        raise MovesTooMuch(
-            f"The mark moves a vertex by {report.max_displacement:.3g} {unit}, and {most:.3g} {unit} are allowed. "
-            f"A strength of {report.strength * most / report.max_displacement * 0.9:.2g} may fit, with a weaker mark; "
-            f"the file's unit is taken to be {unit}."
-        )
+    if report.max_displacement <= most:
+        return
+    strength = report.strength * most / report.max_displacement * 0.9
+    slides = f"Method {Method.WAVES} slides no vertices along the surface and may fit; or "
+    raise MovesTooMuch(
+        f"The mark moves a vertex by {report.max_displacement:.3g} {unit}, and {most:.3g} {unit} are allowed. "
+        f"{'' if report.method == Method.WAVES else slides}a strength of {strength:.2g}, with a weaker mark. "
+        f"The file's unit is taken to be {unit}."
+    )
 
 
 def _write_checked(body: Body, moved: object, target: Path, message: str, key: Key, settings: Settings) -> None:

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from ..errors import MeshmarkError
-from . import single
+from . import catalog, single
 from .output import errors
 
 PRESENT, ABSENT, ERROR = 0, 1, 2
@@ -20,7 +20,8 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-single.add_to(app)
+for group in (single, catalog):
+    group.add_to(app)
 
 
 def _version(wanted: bool) -> None:
