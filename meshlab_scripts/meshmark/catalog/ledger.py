@@ -175,12 +175,18 @@ class Ledger:
         )
         return [Copy(*row[:5], Settings(**json.loads(row[5])), json.loads(row[6])) for row in rows]
 
-    def candidates(self) -> list[tuple[str, int, int, int]]:
-        """Of every copy: recipe (as text), model, recipient, message."""
-        return self._sql.execute(
-            "SELECT copies.recipe, copies.model, copies.recipient, recipients.message "
-            "FROM copies JOIN recipients ON recipients.id = copies.recipient ORDER BY copies.recipe, copies.recipient"
-        ).fetchall()
+    def candidates(self) -> dict[Settings, dict[int, int]]:
+        """Who has a copy of this recipe: recipient and message."""
+        found: dict[Settings, dict[int, int]] = {}
+        rows = self._sql.execute(
+            "SELECT DISTINCT copies.recipe, recipients.id, recipients.message "
+            "FROM copies JOIN recipients ON recipients.id = copies.recipient ORDER BY copies.recipe, recipients.id"
+        )
+        recipes: dict[str, Settings] = {}
+        for text, recipient, message in rows:
+            settings = recipes.get(text) or recipes.setdefault(text, Settings(**json.loads(text)))
+            found.setdefault(settings, {})[recipient] = message
+        return found
 
     def files(self) -> set[str]:
         """The names of all copies."""

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""trace: whose copy is it?"""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.markup import escape
+
+from ..catalog import Ledger
+from ..key import find_key
+from ..tracing import Answer, trace
+from .options import AsJson, KeyFile
+from .output import busy, console, print_json
+
+CODES = {Answer.NAME: 0, Answer.NOBODY: 1, Answer.CANNOT_TELL: 3}
+
+
+def add_to(app: typer.Typer) -> None:
+    """Adds it to the command."""
+    app.command(name="trace")(_trace)
+
+
+def _trace(
+    found: Annotated[Path, typer.Argument(metavar="FOUND", help="The file that turned up.", show_default=False)],
+    ledger: Annotated[Path, typer.Option("--ledger", "-l", help="Of the catalogue.")] = Path("ledger.sqlite"),
+    key_file: KeyFile = None,
+    as_json: AsJson = False,
+) -> None:
+    """Tell from a found file whose copy it is.
+
+    Exit code 0: a name; 1: nobody (the model, unmarked, or marked with another key); 2: error; 3: cannot tell.
+    """
+    with busy(f"Reading {found.name}"), Ledger(ledger) as opened:
+        result = trace(found, opened, find_key(None, key_file))
+    if as_json:
+        print_json(result.json())
+    else:
+        for one in result.readings:
+            said = one.report.verdict if one.report else one.refusal
+            console.print(f"[dim]{escape(f'{one.piece}, {one.settings.method}, {one.way}: {said}')}[/]", soft_wrap=True)
+        console.print(f"[bold]{escape(result.sentence)}[/]", soft_wrap=True)
+    raise typer.Exit(CODES[result.answer])
