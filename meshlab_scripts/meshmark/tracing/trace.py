@@ -151,8 +151,8 @@ def _mark_without_name(reports: list[DetectReport], p: float, tries: int) -> str
     presence = min((one.presence or 1 for one in reports), default=1) * tries
     if presence < PROVEN:
         return (
-            f"A mark of this key is there (p {_p(presence)}), but whose it is does not come out: the copy is damaged, or "
-            "several were mixed."
+            f"A mark of this key is there (p {_p(presence)}), but whose it is does not come out: the copy is damaged, "
+            "or several were mixed."
         )
     if p < DOUBT:
         return f"One recipient's message reads better than chance (p {_p(p)}), but not well enough to name anybody."
