@@ -10,7 +10,7 @@ from pathlib import Path
 import pymeshlab
 
 from . import host, plugin
-from .errors import FormatError, MovesTooMuch, NotReadBack
+from .errors import FormatError, MeshmarkError, MovesTooMuch, NotReadBack
 from .formats import Body, read_body, weld
 from .key import Key, find_key
 from .length import Length, read_length
@@ -77,21 +77,38 @@ def detect(
     *,
     key: Key | str | None = None,
     expected: Expected = None,
+    original: File | None = None,
     method: str = Method.LAYERED,
     statistic: str = Statistic.MEAN,
     bits: int = 0,
     trim: float = -1,
 ) -> DetectReport:
-    """Reads a mark with the key alone. `expected` is a message to look for, or a list of which one may be there.
+    """Reads a mark, with the key alone or with the unmarked original too, and so from parts and bent copies.
+
+    `expected` is a message to look for, or a list of which one may be there.
 
     :raises Refused: where the filter cannot look at the mesh
     :raises FormatError: where a file cannot be read
+    :raises MeshmarkError: where the plugin cannot read with an original
     """
-    settings = Settings(method, statistic, bits, trim)
+    values = Settings(method, statistic, bits, trim).values()
     secret = find_key(key)
     with opened(mesh) as meshes, _candidates(expected) as text, secret.lent() as lent:
-        json = host.apply_with_report(meshes, plugin.DETECT, key=lent, expected=text, **settings.values())
-    return DetectReport.read(json)
+        values |= {"key": lent, "expected": text}
+        if original is None:
+            return DetectReport.read(host.apply_with_report(meshes, plugin.DETECT, **values))
+        if not plugin.reads_with_original():
+            raise MeshmarkError("This plugin cannot read with the original. Build that of this version.")
+        examined = meshes.current_mesh_id()
+        _add(meshes, read_body(Path(original)))
+        values["original"] = meshes.current_mesh_id()
+        meshes.set_current_mesh(examined)
+        try:
+            return DetectReport.read(host.apply_with_report(meshes, plugin.DETECT_WITH_ORIGINAL, **values))
+        finally:
+            meshes.set_current_mesh(values["original"])
+            meshes.delete_current_mesh()
+            meshes.set_current_mesh(examined)
 
 
 def attack(

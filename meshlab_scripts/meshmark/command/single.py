@@ -54,6 +54,7 @@ def detect(
     expected: Annotated[
         str | None, typer.Option("--expected", "-e", help="The message to look for, or file:PATH with one a line.")
     ] = None,
+    original: Annotated[Path | None, typer.Option("--original", help="The unmarked model, if at hand.")] = None,
     method: MethodName = Method.LAYERED,
     statistic: StatisticName = Statistic.MEAN,
     bits: Bits = 0,
@@ -63,8 +64,8 @@ def detect(
     """Read a mark from IN. Exit code 0: the message is there; 1: it is not."""
     with busy(f"Reading {source.name}"):
         report = marking.detect(
-            source, key=find_key(None, key_file), expected=expected, method=method, statistic=statistic, bits=bits,
-            trim=trim,
+            source, key=find_key(None, key_file), expected=expected, original=original, method=method,
+            statistic=statistic, bits=bits, trim=trim,
         )  # fmt: skip
     show(report, as_json)
     raise typer.Exit(0 if report.found else 1)

@@ -24,6 +24,9 @@ def add_to(app: typer.Typer) -> None:
 def _trace(
     found: Annotated[Path, typer.Argument(metavar="FOUND", help="The file that turned up.", show_default=False)],
     ledger: Annotated[Path, typer.Option("--ledger", "-l", help="Of the catalogue.")] = Path("ledger.sqlite"),
+    original: Annotated[
+        Path | None, typer.Option("--original", help="Folder of the unmarked models: reads parts and bent copies, too.")
+    ] = None,
     key_file: KeyFile = None,
     as_json: AsJson = False,
 ) -> None:
@@ -32,12 +35,11 @@ def _trace(
     Exit code 0: a name; 1: nobody (the model, unmarked, or marked with another key); 2: error; 3: cannot tell.
     """
     with busy(f"Reading {found.name}"), Ledger(ledger) as opened:
-        result = trace(found, opened, find_key(None, key_file))
+        result = trace(found, opened, find_key(None, key_file), original)
     if as_json:
         print_json(result.json())
     else:
         for one in result.readings:
-            said = one.report.verdict if one.report else one.refusal
-            console.print(f"[dim]{escape(f'{one.piece}, {one.settings.method}, {one.way}: {said}')}[/]", soft_wrap=True)
+            console.print(f"[dim]{escape(str(one))}[/]", soft_wrap=True)
         console.print(f"[bold]{escape(result.sentence)}[/]", soft_wrap=True)
     raise typer.Exit(CODES[result.answer])

@@ -35,14 +35,21 @@ class Likeness:
         return self.difference < SAME and SMOOTHER < self.roughening < ROUGHER
 
 
-def nearest(piece: Piece, models: list[Model]) -> Likeness | None:
-    """None where the piece has no shape, or there are no models."""
+def ranked(piece: Piece, models: list[Model]) -> list[Likeness]:
+    """The models from the nearest on; in the ledger's order where the piece has no shape."""
     try:
         found = piece.signature()
     except FormatError:
-        return None
-    apart = [difference(found, np.array(model.signature)) for model in models]
-    if not apart or not np.isfinite(min(apart)):
-        return None
-    model = models[int(np.argmin(apart))]
-    return Likeness(model, min(apart), roughening(found, np.array(model.signature)))
+        return [Likeness(model, np.inf, 0) for model in models]
+    signatures = [np.array(model.signature) for model in models]
+    likes = [
+        Likeness(model, difference(found, one), roughening(found, one))
+        for model, one in zip(models, signatures, strict=True)
+    ]
+    return sorted(likes, key=lambda like: like.difference)
+
+
+def nearest(piece: Piece, models: list[Model]) -> Likeness | None:
+    """None where the piece has no shape, or there are no models."""
+    likes = ranked(piece, models)
+    return likes[0] if likes and np.isfinite(likes[0].difference) else None

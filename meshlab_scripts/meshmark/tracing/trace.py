@@ -5,25 +5,29 @@ Each piece of the file is read once for each recipe in the ledger, with all its 
 counts the candidates; times the number of readings it bounds the chance that anyone at all is named wrongly.
 """
 
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from pathlib import Path
 
 import numpy as np
 import pymeshlab
 
-from .. import host, marking
-from ..catalog.ledger import Ledger
+from .. import host, marking, plugin
+from ..catalog.ledger import Ledger, Model
+from ..catalog.plan import digest
 from ..errors import MeshmarkError, Refused
 from ..formats import read_body
 from ..key import Key
 from ..reports import DetectReport
 from ..settings import Settings
 from ..shape.pieces import Piece, pieces
-from .likeness import Likeness, nearest
+from .likeness import Likeness, nearest, ranked
 
 PROVEN = 1e-6  # below it somebody is named
 DOUBT = 1e-2  # below it "nobody" is not said either
+REGISTERED = 2  # pieces, besides the whole, that are laid on originals
+ORIGINALS = 8  # that are tried with each of these
 ANOTHER_KEY = 3  # DetectReport.finding
 
 
@@ -41,12 +45,27 @@ class Reading:
 
     piece: str
     settings: Settings
-    way: str  # "blind", "with the original"
-    recipient: int | None  # the best candidate
-    p: float  # of that candidate; counts the candidates, not the readings
-    runner_up_p: float
-    report: DetectReport | None
+    original: Model | None  # blind without
+    recipient: int | None = None  # the best candidate
+    p: float = 1  # of that candidate; counts the candidates, not the readings
+    runner_up_p: float = 1
+    report: DetectReport | None = None
     refusal: str = ""
+
+    def json(self) -> dict[str, object]:
+        """For other programs."""
+        return {
+            "piece": self.piece,
+            "original": self.original.name if self.original else None,
+            "p": self.p,
+            "runner_up_p": self.runner_up_p,
+            "verdict": self.report.verdict if self.report else self.refusal,
+            **self.settings.values(),
+        }
+
+    def __str__(self) -> str:
+        way = f"with the original '{self.original.name}'" if self.original else "blind"
+        return f"{self.piece}, {self.settings.method}, {way}: {self.report.verdict if self.report else self.refusal}"
 
 
 @dataclass(frozen=True)
@@ -56,13 +75,15 @@ class Trace:
     answer: Answer
     sentence: str
     recipient: str | None = None
-    others: list[str] = field(default_factory=list)  # who read beyond doubt as well: averaged copies
+    mixed: bool = False  # another recipient reads beyond doubt, too: copies were averaged
     p: float = 1.0  # counts candidates and readings
     model: str | None = None
     likeness: Likeness | None = None
     piece: str = ""
     readings: list[Reading] = field(default_factory=list)
+    tries: int = 1  # readings that were meant to be made; p counts them all
     candidates: int = 0
+    ledger: str = ""
 
     def json(self) -> dict[str, object]:
         """For other programs."""
@@ -70,27 +91,26 @@ class Trace:
         return {
             "answer": str(self.answer),
             "recipient": self.recipient,
-            "others": self.others,
+            "mixed": self.mixed,
             "p": self.p,
             "model": self.model,
             "shape_difference": like.difference if like else None,
             "area_change": like.roughening if like else None,
             "piece": self.piece,
             "candidates": self.candidates,
-            "readings": [
-                {"piece": one.piece, "way": one.way, "p": one.p, "runner_up_p": one.runner_up_p,
-                 "verdict": one.report.verdict if one.report else one.refusal, **one.settings.values()}
-                for one in self.readings
-            ],
+            "tries": self.tries,
+            "readings": [one.json() for one in self.readings],
             "sentence": self.sentence,
         }  # fmt: skip
 
 
-def trace(found: Path, ledger: Ledger, key: Key) -> Trace:
-    """Whose copy a file is.
+def trace(found: Path, ledger: Ledger, key: Key, originals: Path | None = None) -> Trace:
+    """Whose copy a file is. `originals` is the folder of the unmarked models: with these, where blind reading fails,
+    parts and bent copies are read too.
 
     :raises FormatError: where it cannot be read
-    :raises MeshmarkError: where the ledger is empty, or its copies were marked with another key
+    :raises MeshmarkError: where the ledger is empty, its copies were marked with another key, or the plugin cannot
+        read with an original
     """
     if ledger.key_check is None or not ledger.done():
         raise MeshmarkError(f"The ledger '{ledger.path}' has no copies yet.")
@@ -98,31 +118,81 @@ def trace(found: Path, ledger: Ledger, key: Key) -> Trace:
     parts = pieces(read_body(found))
     models = ledger.models()
     likes = {piece.name: nearest(piece, models) for piece in parts}
-    groups = _candidates(ledger)
-    readings = [_read(piece, settings, group, key) for piece in parts for settings, group in groups]
-    return _judge(readings, likes, ledger, sum(len(group) for _, group in groups))
+    attempts = [_Attempt(piece, settings, group) for piece in parts for settings, group in _candidates(ledger)]
+    if originals is not None:
+        files = _originals(originals, models)
+        attempts += [
+            replace(attempt, original=model, file=files[model.id])
+            for attempt in attempts
+            if attempt.piece in parts[: 1 + REGISTERED]
+            for model in _likely_first(attempt.piece, models, files)
+        ]
+    return _judge(list(_readings(attempts, key)), len(attempts), likes, ledger)
 
 
-def _candidates(ledger: Ledger) -> list[tuple[Settings, list[tuple[int, int]]]]:
+@dataclass(frozen=True)
+class _Attempt:
+    """What is read: a piece, for one recipe and those who have copies of it, blind or with an original."""
+
+    piece: Piece
+    settings: Settings
+    group: dict[int, int]  # message by recipient
+    original: Model | None = None
+    file: Path | None = None
+
+
+def _readings(attempts: list[_Attempt], key: Key) -> Iterator[Reading]:
+    """One after the other, until one is proof. All that were meant to be read count in p, so that it stays a bound."""
+    for attempt in attempts:
+        reading = _read(attempt, key)
+        yield reading
+        if reading.p * len(attempts) < PROVEN:
+            return
+
+
+def _originals(folder: Path, models: list[Model]) -> dict[int, Path]:
+    """The models' files, by the number of the model, where they are what they were."""
+    if not plugin.reads_with_original():
+        raise MeshmarkError("This plugin cannot read with the original: leave out the folder of originals.")
+    files = {model.id: folder / model.name for model in models}
+    found = {m.id: files[m.id] for m in models if files[m.id].is_file() and digest(files[m.id]) == m.sha256}
+    if not found:
+        raise MeshmarkError(f"None of the ledger's models is in '{folder}', or all have changed since.")
+    return found
+
+
+def _likely_first(piece: Piece, models: list[Model], files: dict[int, Path]) -> list[Model]:
+    """The originals that are tried with a piece; a part is like none, so the nearest few are taken."""
+    return [like.model for like in ranked(piece, models) if like.model.id in files][:ORIGINALS]
+
+
+def _candidates(ledger: Ledger) -> list[tuple[Settings, dict[int, int]]]:
     """Recipients and their messages, for each recipe that the ledger's copies were made with."""
-    return [(settings, sorted(group.items())) for settings, group in ledger.candidates().items()]
+    return list(ledger.candidates().items())
 
 
-def _read(piece: Piece, settings: Settings, group: list[tuple[int, int]], key: Key) -> Reading:
-    expected = [f"id:{message}" for _, message in group]
+def _read(attempt: _Attempt, key: Key) -> Reading:
+    recipients = list(attempt.group)
+    expected = [f"id:{message}" for message in attempt.group.values()]
+    reading = Reading(attempt.piece.name, attempt.settings, attempt.original)
     with host.own_meshes() as meshes:
-        meshes.add_mesh(pymeshlab.Mesh(piece.points, piece.faces))
+        meshes.add_mesh(pymeshlab.Mesh(attempt.piece.points, attempt.piece.faces))
         try:
-            report = marking.detect(meshes, key=key, expected=expected, **settings.values())
+            report = marking.detect(
+                meshes, key=key, expected=expected, original=attempt.file, **attempt.settings.values()
+            )
         except Refused as error:  # a piece that carries nothing says nothing
-            return Reading(piece.name, settings, "blind", None, 1, 1, None, str(error))
-    best = None if report.candidate is None else group[report.candidate][0]
-    p = 1.0 if report.p_value is None else report.p_value
-    return Reading(piece.name, settings, "blind", best, p, report.runner_up_p or 1, report)
+            return replace(reading, refusal=str(error))
+    return replace(
+        reading,
+        recipient=None if report.candidate is None else recipients[report.candidate],
+        p=1.0 if report.p_value is None else report.p_value,
+        runner_up_p=report.runner_up_p or 1.0,
+        report=report,
+    )
 
 
-def _judge(readings: list[Reading], likes: dict[str, Likeness | None], ledger: Ledger, candidates: int) -> Trace:
-    tries = len(readings)
+def _judge(readings: list[Reading], tries: int, likes: dict[str, Likeness | None], ledger: Ledger) -> Trace:
     best = min(readings, key=lambda one: one.p)
     p = min(1.0, best.p * tries)
     proven = p < PROVEN and best.recipient is not None
@@ -131,7 +201,8 @@ def _judge(readings: list[Reading], likes: dict[str, Likeness | None], ledger: L
         near = [one for one in likes.values() if one and one.alike]
         like = min(near, key=lambda one: one.difference, default=like)
     facts = {"p": p, "likeness": like, "model": like.model.name if like and like.alike else None,
-             "piece": best.piece, "readings": readings, "candidates": candidates}  # fmt: skip
+             "piece": best.piece, "readings": readings, "tries": tries, "ledger": str(ledger.path),
+             "candidates": len({one for group in ledger.candidates().values() for one in group})}  # fmt: skip
     if proven:
         return _named(best, ledger, tries, facts)
     reports = [one.report for one in readings if one.report]
@@ -173,19 +244,18 @@ def _doubtful_shape(like: Likeness | None) -> str:
 
 
 def _named(best: Reading, ledger: Ledger, tries: int, facts: dict[str, object]) -> Trace:
-    names = ledger.recipients()
-    name = names[best.recipient][0]
+    name = ledger.recipients()[best.recipient][0]
     like: Likeness | None = facts["likeness"]
-    has = like is not None and like.alike and (like.model.id, best.recipient) in ledger.done()
-    what = (
-        f"of '{like.model.name}'" if has else "of one of the models (by its shape it is none that this recipient has)"
-    )
+    model = best.original or (like.model if like and like.alike else None)
+    has = model is not None and (model.id, best.recipient) in ledger.done()
+    what = f"'{model.name}'" if has else "a model (by its shape it is none that this recipient has)"
     where = "" if best.piece == "the whole file" else f" In {best.piece}."
+    text = f"{name}: it is the copy of {what} for this recipient (p {_p(facts['p'])}).{where}"
     mixed = best.runner_up_p * tries < PROVEN
-    text = f"{name}: it is the copy {what} for this recipient (p {_p(facts['p'])})." + where
     if mixed:
         text += f" A second recipient reads beyond doubt, too (p {_p(best.runner_up_p * tries)}): copies were mixed."
-    return Trace(Answer.NAME, text, recipient=name, others=["a second recipient"] if mixed else [], **facts)
+    facts["model"] = model.name if model else None
+    return Trace(Answer.NAME, text, recipient=name, mixed=mixed, **facts)
 
 
 def _p(p: float) -> str:
