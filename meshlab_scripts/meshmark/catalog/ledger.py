@@ -62,6 +62,7 @@ class Copy:
     part: str | None  # where the file still lies that is to come under its name
     recipe: Settings
     figures: dict[str, object]
+    made: str = ""  # when
 
 
 class Ledger:
@@ -171,9 +172,9 @@ class Ledger:
     def copies(self) -> list[Copy]:
         """All, in the order of models and recipients."""
         rows = self._sql.execute(
-            "SELECT model, recipient, file, sha256, part, recipe, figures FROM copies ORDER BY model, recipient"
+            "SELECT model, recipient, file, sha256, part, recipe, figures, made FROM copies ORDER BY model, recipient"
         )
-        return [Copy(*row[:5], Settings(**json.loads(row[5])), json.loads(row[6])) for row in rows]
+        return [Copy(*row[:5], Settings(**json.loads(row[5])), json.loads(row[6]), row[7]) for row in rows]
 
     def candidates(self) -> dict[Settings, dict[int, int]]:
         """Who has a copy of this recipe: recipient and message."""

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from ..errors import MeshmarkError
-from . import catalog, single, trace
+from . import catalog, report, single, trace
 from .output import errors
 
 PRESENT, ABSENT, ERROR = 0, 1, 2
@@ -20,7 +20,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for group in (single, catalog, trace):
+for group in (single, catalog, trace, report):
     group.add_to(app)
 
 

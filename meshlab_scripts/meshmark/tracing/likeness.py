@@ -13,6 +13,7 @@ from ..shape.signature import difference, roughening
 # Measured on marked copies of eight models (README): what a mark survives changes a shape by less than the first, and
 # two models differ by more than the second. Between them a copy is damaged, and no mark says nothing.
 SAME, ALIKE = 0.02, 0.1
+COARSER = 0.25  # of the model's faces; what has fewer was simplified beyond what a mark is sure to outlive
 ROUGHER, SMOOTHER = 0.02, -0.03  # of the area; noise and smoothing that erase marks change it by more
 
 
@@ -23,6 +24,7 @@ class Likeness:
     model: Model
     difference: float
     roughening: float
+    faces: float  # as a part of the model's
 
     @property
     def alike(self) -> bool:
@@ -32,7 +34,7 @@ class Likeness:
     @property
     def intact(self) -> bool:
         """It is the model, and a mark in it would be read."""
-        return self.difference < SAME and SMOOTHER < self.roughening < ROUGHER
+        return self.difference < SAME and SMOOTHER < self.roughening < ROUGHER and self.faces > COARSER
 
 
 def ranked(piece: Piece, models: list[Model]) -> list[Likeness]:
@@ -40,10 +42,10 @@ def ranked(piece: Piece, models: list[Model]) -> list[Likeness]:
     try:
         found = piece.signature()
     except FormatError:
-        return [Likeness(model, np.inf, 0) for model in models]
+        return [Likeness(model, np.inf, 0, 1) for model in models]
     signatures = [np.array(model.signature) for model in models]
     likes = [
-        Likeness(model, difference(found, one), roughening(found, one))
+        Likeness(model, difference(found, one), roughening(found, one), len(piece.faces) / model.faces)
         for model, one in zip(models, signatures, strict=True)
     ]
     return sorted(likes, key=lambda like: like.difference)

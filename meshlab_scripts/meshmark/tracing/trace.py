@@ -185,7 +185,7 @@ def _read(attempt: _Attempt, key: Key) -> Reading:
             return replace(reading, refusal=str(error))
     return replace(
         reading,
-        recipient=None if report.candidate is None else recipients[report.candidate],
+        recipient=recipients[report.candidate or 0],  # of one alone the filter gives no number
         p=1.0 if report.p_value is None else report.p_value,
         runner_up_p=report.runner_up_p or 1.0,
         report=report,
@@ -195,7 +195,7 @@ def _read(attempt: _Attempt, key: Key) -> Reading:
 def _judge(readings: list[Reading], tries: int, likes: dict[str, Likeness | None], ledger: Ledger) -> Trace:
     best = min(readings, key=lambda one: one.p)
     p = min(1.0, best.p * tries)
-    proven = p < PROVEN and best.recipient is not None
+    proven = p < PROVEN
     like = likes[best.piece]
     if not proven or like is None or not like.alike:
         near = [one for one in likes.values() if one and one.alike]
@@ -209,8 +209,11 @@ def _judge(readings: list[Reading], tries: int, likes: dict[str, Likeness | None
     doubt = _mark_without_name(reports, p, tries) or _doubtful_shape(like)
     if doubt:
         return Trace(Answer.CANNOT_TELL, f"Cannot tell. {doubt}", **facts)
-    other = ", but seems to carry one of another key" if any(one.finding == ANOTHER_KEY for one in reports) else ""
-    text = f"It is '{like.model.name}' by its shape, little changed, and carries no mark of this ledger's key{other}."
+    other = ", and seems to carry one of another key" if any(one.finding == ANOTHER_KEY for one in reports) else ""
+    text = (
+        f"It is '{like.model.name}' by its shape, little changed, and no mark of this ledger's key reads{other}: it is "
+        "unmarked, not one of these copies, or its mark was taken out."
+    )
     return Trace(Answer.NOBODY, f"Nobody. {text}", **facts)
 
 
@@ -238,7 +241,7 @@ def _doubtful_shape(like: Likeness | None) -> str:
     if not like.intact:
         return (
             f"It is '{like.model.name}' by its shape, but changed (shape {like.difference:.1%}, area "
-            f"{like.roughening:+.1%}): a mark may have been lost."
+            f"{like.roughening:+.1%}, {like.faces:.0%} of the faces): a mark may have been lost."
         )
     return ""
 
