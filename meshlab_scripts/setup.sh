@@ -86,12 +86,13 @@ fetch_sources() {
 }
 
 make_venv() {
-    local wanted=$here/meshlab_scripts/requirements.txt have=$build/venv/requirements.txt
-    ! cmp -s "$wanted" "$have" || return 0
-    say "installing pymeshlab into build/venv"
+    local wanted have=$build/venv/requirements.txt
+    wanted=$(cat meshlab_scripts/requirements.txt meshlab_scripts/pyproject.toml)
+    [ "$wanted" != "$(cat "$have" 2>/dev/null)" ] || return 0
+    say "installing pymeshlab and meshmark into build/venv"
     [ -x "$build/venv/bin/pip" ] || /usr/bin/python3 -m venv "$build/venv"
-    "$build/venv/bin/pip" install --quiet --disable-pip-version-check -r "$wanted"
-    cp "$wanted" "$have"
+    "$build/venv/bin/pip" install --quiet --disable-pip-version-check -r meshlab_scripts/requirements.txt
+    printf '%s\n' "$wanted" >"$have"
 }
 
 # The meshes of libcgal-demo. Systems that install no /usr/share/doc (containers) take them from the package file itself.

@@ -118,14 +118,12 @@ class PyMeshLab:
 
     name = "pymeshlab"
     plugin = BUILD / "meshlab-2025.07" / "libfilter_watermark.so"
-    loaded = False
     # pymeshlab keeps a pointer to the log of the MeshSet whose filter failed, and writes to it: these must live on.
     failed: ClassVar[list[pymeshlab.MeshSet]] = []
 
     def __init__(self) -> None:
-        if not PyMeshLab.loaded:
+        if FILTERS[EMBED][0] not in pymeshlab.filter_list():
             pymeshlab.load_plugin(str(self.plugin))
-            PyMeshLab.loaded = True
 
     def apply(self, meshes: pymeshlab.MeshSet, filter_name: str, **values: Value) -> Report:
         """Applies one filter to the current layer and returns the report."""

@@ -1,0 +1,262 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The ledger: one SQLite file that says which recipient has which copy. Never the key.
+
+It is written by one process, in transactions; killed at any time it is whole (SQLite's write-ahead log). A copy is
+entered before its file appears under its name: so where there is a file there is an entry.
+"""
+
+import json
+import secrets
+import sqlite3
+from collections.abc import Iterable
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Self
+
+from ..errors import MeshmarkError
+from ..key import Key
+from ..settings import Settings
+
+VERSION = 1
+IDS = 2**32  # of messages `id:NUMBER`
+_SCHEMA = """
+CREATE TABLE about (name TEXT PRIMARY KEY, value TEXT NOT NULL);
+CREATE TABLE models (
+    id INTEGER PRIMARY KEY, name TEXT NOT NULL, sha256 TEXT NOT NULL, bytes INTEGER NOT NULL, vertices INTEGER NOT NULL,
+    faces INTEGER NOT NULL, unit TEXT NOT NULL, signature TEXT NOT NULL, UNIQUE (name, sha256));
+CREATE TABLE recipients (
+    id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, message INTEGER NOT NULL UNIQUE, added TEXT NOT NULL);
+CREATE TABLE copies (
+    model INTEGER NOT NULL REFERENCES models, recipient INTEGER NOT NULL REFERENCES recipients,
+    file TEXT NOT NULL UNIQUE, sha256 TEXT NOT NULL, part TEXT, recipe TEXT NOT NULL, figures TEXT NOT NULL,
+    made TEXT NOT NULL, PRIMARY KEY (model, recipient));
+CREATE TABLE refusals (
+    model INTEGER NOT NULL REFERENCES models, recipient INTEGER NOT NULL REFERENCES recipients, reason TEXT NOT NULL,
+    at TEXT NOT NULL, PRIMARY KEY (model, recipient));
+"""
+
+
+@dataclass(frozen=True)
+class Model:
+    """A file of the catalogue, as it was when its first copy was ordered."""
+
+    id: int
+    name: str  # its path in the catalogue
+    sha256: str
+    bytes: int
+    vertices: int
+    faces: int
+    unit: str
+    signature: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Copy:
+    """An entry: a marked file, and what it was made with."""
+
+    model: int
+    recipient: int
+    file: str  # in the folder of the copies
+    sha256: str
+    part: str | None  # where the file still lies that is to come under its name
+    recipe: Settings
+    figures: dict[str, object]
+    made: str = ""  # when
+
+
+class Ledger:
+    """The file, open. `with` closes it."""
+
+    def __init__(self, path: Path, *, create: bool = False) -> None:
+        if not create and not path.is_file():
+            raise MeshmarkError(f"There is no ledger '{path}'.")
+        self.path = path
+        path.parent.mkdir(parents=True, exist_ok=True)
+        try:
+            self._sql = sqlite3.connect(path, isolation_level=None)
+            self._sql.execute("PRAGMA journal_mode=WAL")
+            self._sql.execute("PRAGMA synchronous=FULL")
+            self._prepare()
+        except sqlite3.DatabaseError as error:
+            raise MeshmarkError(f"'{path}' is no ledger: {error}.") from error
+
+    def _prepare(self) -> None:
+        with self._transaction():
+            if self._sql.execute("SELECT count(*) FROM sqlite_master").fetchone()[0] == 0:
+                for statement in _SCHEMA.split(";"):
+                    self._sql.execute(statement)
+                self._about("version", str(VERSION))
+                self._about("salt", secrets.token_hex(16))
+        if self._told("version") != str(VERSION):
+            raise MeshmarkError(f"'{self.path}' is a ledger of another version of meshmark.")
+
+    def _transaction(self) -> "_Transaction":
+        return _Transaction(self._sql)
+
+    def _about(self, name: str, value: str) -> None:
+        self._sql.execute("INSERT INTO about VALUES (?, ?)", (name, value))
+
+    def _told(self, name: str) -> str | None:
+        row = self._sql.execute("SELECT value FROM about WHERE name = ?", (name,)).fetchone()
+        return row[0] if row else None
+
+    @property
+    def salt(self) -> bytes:
+        """Of the key's check."""
+        return bytes.fromhex(self._told("salt") or "")
+
+    @property
+    def key_check(self) -> str | None:
+        """What Key.check() gave for this ledger's key."""
+        return self._told("key check")
+
+    def require(self, key: Key) -> None:
+        """Takes this key for the ledger's, or makes sure that it is.
+
+        :raises MeshmarkError: where the copies so far were marked with another one
+        """
+        with self._transaction():
+            if self.key_check is None:
+                self._about("key check", key.check(self.salt))
+        if key.check(self.salt) != self.key_check:
+            raise MeshmarkError(f"The copies of '{self.path}' were marked with another key. Use that one.")
+
+    def models(self) -> list[Model]:
+        """All, the oldest first."""
+        rows = self._sql.execute("SELECT * FROM models ORDER BY id")
+        return [Model(*row[:-1], signature=tuple(json.loads(row[-1]))) for row in rows]
+
+    def add_model(self, model: Model) -> Model:
+        """A model that is new, or has changed; its `id` is given here."""
+        with self._transaction():
+            at = self._sql.execute(
+                "INSERT INTO models VALUES (NULL, ?, ?, ?, ?, ?, ?, ?)",
+                (model.name, model.sha256, model.bytes, model.vertices, model.faces, model.unit,
+                 json.dumps(model.signature)),
+            ).lastrowid  # fmt: skip
+        return Model(at, *[getattr(model, name) for name in list(Model.__dataclass_fields__)[1:]])
+
+    def recipients(self) -> dict[int, tuple[str, int]]:
+        """Name and message by id."""
+        return {row[0]: row[1:] for row in self._sql.execute("SELECT id, name, message FROM recipients")}
+
+    def add_recipients(self, names: Iterable[str]) -> None:
+        """Gives those who are new a message each.
+
+        Its number is drawn: then the chance that an innocent's reads as well as the leaker's is what the code promises
+        of any two, and a copy does not tell how many there are.
+        """
+        with self._transaction():
+            known = {name for (name,) in self._sql.execute("SELECT name FROM recipients")}
+            used = {message for (message,) in self._sql.execute("SELECT message FROM recipients")}
+            for name in names:
+                if name in known:
+                    continue
+                while (message := secrets.randbelow(IDS)) in used:
+                    pass
+                used.add(message)
+                self._sql.execute(
+                    "INSERT INTO recipients (name, message, added) VALUES (?, ?, ?)", (name, message, now())
+                )
+
+    def done(self) -> set[tuple[int, int]]:
+        """Model and recipient of every copy."""
+        return set(self._sql.execute("SELECT model, recipient FROM copies"))
+
+    def refused(self) -> dict[tuple[int, int], str]:
+        """Why a copy could not be made, by model and recipient."""
+        rows = self._sql.execute("SELECT model, recipient, reason FROM refusals")
+        return {(model, recipient): reason for model, recipient, reason in rows}
+
+    def copies(self) -> list[Copy]:
+        """All, in the order of models and recipients."""
+        rows = self._sql.execute(
+            "SELECT model, recipient, file, sha256, part, recipe, figures, made FROM copies ORDER BY model, recipient"
+        )
+        return [Copy(*row[:5], Settings(**json.loads(row[5])), json.loads(row[6]), row[7]) for row in rows]
+
+    def candidates(self) -> dict[Settings, dict[int, int]]:
+        """Who has a copy of this recipe: recipient and message."""
+        found: dict[Settings, dict[int, int]] = {}
+        rows = self._sql.execute(
+            "SELECT DISTINCT copies.recipe, recipients.id, recipients.message "
+            "FROM copies JOIN recipients ON recipients.id = copies.recipient ORDER BY copies.recipe, recipients.id"
+        )
+        recipes: dict[str, Settings] = {}
+        for text, recipient, message in rows:
+            settings = recipes.get(text) or recipes.setdefault(text, Settings(**json.loads(text)))
+            found.setdefault(settings, {})[recipient] = message
+        return found
+
+    def files(self) -> set[str]:
+        """The names of all copies."""
+        return {name for (name,) in self._sql.execute("SELECT file FROM copies")}
+
+    def accept(self, copy: Copy, folder: Path) -> None:
+        """Enters a copy, and brings its file from where it lies to its name."""
+        self._sql.execute(
+            "INSERT INTO copies VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+            (copy.model, copy.recipient, copy.file, copy.sha256, copy.part, json.dumps(vars(copy.recipe)),
+             json.dumps(copy.figures), now()),
+        )  # fmt: skip
+        self._arrive(copy, folder)
+
+    def refuse(self, model: int, recipient: int, reason: str) -> None:
+        """Notes why a copy could not be made."""
+        self._sql.execute("INSERT OR REPLACE INTO refusals VALUES (?, ?, ?, ?)", (model, recipient, reason, now()))
+
+    def forget_refusals(self) -> None:
+        """So that they are tried again."""
+        self._sql.execute("DELETE FROM refusals")
+
+    def settle(self, folder: Path) -> None:
+        """After a crash: brings files to their names whose entry was made, and drops entries whose file is lost."""
+        for copy in self.copies():
+            if copy.part is None:
+                continue
+            if (folder / copy.part).is_file() or (folder / copy.file).is_file():
+                self._arrive(copy, folder)
+            else:
+                self._sql.execute("DELETE FROM copies WHERE file = ?", (copy.file,))
+
+    def _arrive(self, copy: Copy, folder: Path) -> None:
+        part = folder / (copy.part or "")
+        if part.is_file():
+            _bring(part, folder / copy.file)
+        self._sql.execute("UPDATE copies SET part = NULL WHERE file = ?", (copy.file,))
+        self._sql.execute("DELETE FROM refusals WHERE model = ? AND recipient = ?", (copy.model, copy.recipient))
+
+    def copy_to(self, path: Path) -> None:
+        """The same ledger in another file."""
+        with sqlite3.connect(path) as other:
+            self._sql.backup(other)
+        other.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._sql.close()
+
+
+def _bring(part: Path, place: Path) -> None:
+    part.replace(place)
+
+
+class _Transaction:
+    """Begins one that may write, and ends it."""
+
+    def __init__(self, sql: sqlite3.Connection) -> None:
+        self._sql = sql
+
+    def __enter__(self) -> None:
+        self._sql.execute("BEGIN IMMEDIATE")
+
+    def __exit__(self, kind: object, *_: object) -> None:
+        self._sql.execute("COMMIT" if kind is None else "ROLLBACK")
+
+
+def now() -> str:
+    """UTC, to the second."""
+    return datetime.now(UTC).isoformat(timespec="seconds")

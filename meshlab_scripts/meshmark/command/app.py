@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command itself: exit code 0 for a find (or a job done), 1 for none, 2 for an error with its cause and cure."""
+
+import sys
+from importlib import metadata
+from typing import Annotated
+
+import typer
+
+from ..errors import MeshmarkError
+from . import catalog, report, single, trace
+from .output import errors
+
+PRESENT, ABSENT, ERROR = 0, 1, 2
+
+app = typer.Typer(
+    name="meshmark",
+    help=__doc__,
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+for group in (single, catalog, trace, report):
+    group.add_to(app)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        print(f"meshmark {metadata.version('meshmark')}, pymeshlab {metadata.version('pymeshlab')}")
+        raise typer.Exit
+
+
+@app.callback(epilog="The key comes from --key-file or from the environment variable WATERMARK_KEY.")
+def _about(
+    version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Versions.")] = False,
+) -> None:
+    """Marks copies of 3D models, one for each recipient, and tells from a found copy whose it was.
+
+    Exit codes: 0 found (or done), 1 not found, 2 error.
+    """
+
+
+def main() -> None:
+    """What the shell calls."""
+    try:
+        app()
+    except (MeshmarkError, OSError) as error:
+        errors.print(f"[bold red]meshmark:[/] {single.escape(str(error))}", soft_wrap=True)
+        sys.exit(ERROR)
+    except KeyboardInterrupt:
+        sys.exit(130)

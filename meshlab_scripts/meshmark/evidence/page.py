@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The page: one HTML file with all in it."""
+
+import base64
+import html
+from importlib import metadata, resources
+from pathlib import Path
+from string import Template
+
+import numpy as np
+
+from ..catalog.ledger import Copy, Ledger, now
+from ..catalog.plan import digest
+from ..tracing import Answer, Trace
+from .pictures import picture
+
+COLORS = {Answer.NAME: "#b2182b", Answer.NOBODY: "#1b7837", Answer.CANNOT_TELL: "#666666"}
+
+
+def write_page(out: Path, found: Path, result: Trace, ledger: Ledger, originals: Path | None) -> None:
+    """Writes what a trace found, with pictures, hashes, versions, and what would refute it."""
+    model = next((one for one in ledger.models() if one.name == result.model), None)
+    original = originals / model.name if originals and model and (originals / model.name).is_file() else None
+    template = Template(resources.files(__package__).joinpath("page.html").read_text(encoding="utf-8"))
+    values = {
+        "title": f"Whose copy is {found.name}?",
+        "sentence": result.sentence,
+        "shape": _shape(result),
+        "tries": str(result.tries),
+        "command": f"meshmark trace {found.name} --ledger {ledger.path.name} --key-file KEY"
+        + (" --original FOLDER" if originals else ""),
+    }
+    blocks = {
+        "color": COLORS[result.answer],
+        "picture": base64.b64encode(picture(found, original)).decode(),
+        "meaning": "".join(f"<p>{html.escape(text)}</p>" for text in _meaning(result)),
+        "readings": "".join(f"<tr><td>{html.escape(str(one))}</td></tr>" for one in result.readings),
+        "facts": "".join(
+            f"<tr><th>{html.escape(name)}</th><td><code>{html.escape(value)}</code></td></tr>"
+            for name, value in _facts(found, result, ledger).items()
+        ),
+    }
+    escaped = {name: html.escape(text) for name, text in values.items()}
+    out.write_text(template.substitute(escaped | blocks), encoding="utf-8")
+
+
+def _meaning(result: Trace) -> list[str]:
+    odds = _odds(result.p)
+    texts = [
+        f"p = {result.p:.1e}: were this file unmarked, or marked with another key, the probability that the message of "
+        f"any of the {result.candidates:,} recipients could be read as well from it would be at most {odds}. "
+        "Somebody is named only below 1 in a million."
+    ]
+    if result.mixed:
+        texts.append("More than one recipient's message reads beyond doubt: the file was made from several copies.")
+    if result.answer == Answer.NOBODY:
+        texts.append("The file is this model, changed so little that a mark of this key would be expected to read.")
+    if result.answer == Answer.CANNOT_TELL:
+        texts.append("That is no proof of innocence, and no suspicion against anybody.")
+    return texts
+
+
+def _odds(p: float) -> str:
+    """In words: 1 in 3 million."""
+    if p > 0.1:
+        return f"{p:.2g}"
+    if p < 1e-12:
+        return f"1 in 10^{int(-np.log10(p))}"
+    for size, name in ((1e9, "thousand million"), (1e6, "million"), (1e3, "thousand")):
+        if 1 / p >= size:
+            return f"1 in {int(1 / p / size):,} {name}"
+    return f"1 in {int(1 / p)}"
+
+
+def _shape(result: Trace) -> str:
+    like = result.likeness
+    if like is None:
+        return "The file has no shape that could be compared."
+    return (
+        f"By moments of its shape, which do not depend on size and place, the nearest of the ledger's models is "
+        f"'{like.model.name}': they differ by {like.difference:.2%}, the area by {like.roughening:+.1%}."
+    )
+
+
+def _facts(found: Path, result: Trace, ledger: Ledger) -> dict[str, str]:
+    facts = {
+        "found file": found.name,
+        "its SHA-256": digest(found),
+        "ledger": str(ledger.path.name),
+        "check of the key": ledger.key_check or "",
+    }
+    model = next((one for one in ledger.models() if one.name == result.model), None)
+    if model:
+        facts |= {"model": model.name, "its SHA-256 at marking": model.sha256}
+    copy = _copy(result, ledger)
+    if copy:
+        facts |= {
+            "the recipient's copy": copy.file,
+            "its SHA-256 when made": copy.sha256,
+            "made": copy.made,
+            "with": ", ".join(f"{name} {value}" for name, value in copy.recipe.values().items()),
+            "its distance from the model (RMS, of the diagonal)": f"{copy.figures.get('mrms_relative', 0):.2e}",
+        }
+    return facts | {
+        "meshmark": metadata.version("meshmark"),
+        "pymeshlab": metadata.version("pymeshlab"),
+        "plugin": next((one.report.version for one in result.readings if one.report), ""),
+        "written": now(),
+    }
+
+
+def _copy(result: Trace, ledger: Ledger) -> Copy | None:
+    names = {number: name for number, (name, _) in ledger.recipients().items()}
+    models = {model.id: model.name for model in ledger.models()}
+    return next(
+        (c for c in ledger.copies() if names[c.recipient] == result.recipient and models[c.model] == result.model), None
+    )

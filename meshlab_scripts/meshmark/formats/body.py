@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a file says of the shape, and how its positions are written back with all else left as it is."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+Points = NDArray[np.float64]  # a row a vertex
+Faces = NDArray[np.int32]  # a row a triangle
+
+
+@dataclass(frozen=True)
+class Body:
+    """The shape of a file, in the coordinates of its scene."""
+
+    points: Points
+    faces: Faces
+    unit: str  # of length.MILLIMETRES
+    write: Callable[[Path, Points], None]  # the same file with these positions
+
+
+def weld(corners: Points) -> tuple[Points, NDArray[np.int64]]:
+    """The distinct ones of these points, and the number of each corner's among them."""
+    whole = np.ascontiguousarray(corners + 0.0)  # -0 is 0
+    rows = whole.view(np.dtype((np.void, whole.dtype.itemsize * 3))).ravel()
+    _, first, number = np.unique(rows, return_index=True, return_inverse=True)
+    order = np.argsort(first, kind="stable")  # as they come in the file
+    place = np.empty_like(order)
+    place[order] = np.arange(len(order))
+    return whole[first[order]], place[number]
+
+
+def write_whole(path: Path, contents: bytes) -> None:
+    """The file is there whole, or as it was."""
+    part = path.with_name(f".{path.name}.part")
+    try:
+        part.write_bytes(contents)
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)

@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The four filters as functions, on files and on MeshSets."""
+
+import os
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+import pymeshlab
+
+from . import host, plugin
+from .errors import FormatError, MeshmarkError, MovesTooMuch, NotReadBack
+from .formats import Body, read_body, weld
+from .key import Key, find_key
+from .length import Length, read_length
+from .reports import AttackReport, DetectReport, DistortionReport, EmbedReport
+from .settings import Method, Settings, Statistic
+
+File = str | Path
+Mesh = File | pymeshlab.MeshSet
+Expected = str | Sequence[str] | None
+
+
+def embed(
+    mesh: Mesh,
+    out: File | None = None,
+    *,
+    message: str,
+    key: Key | str | None = None,
+    method: str = Method.LAYERED,
+    statistic: str = Statistic.MEAN,
+    bits: int = 0,
+    trim: float = -1,
+    strength: float = 0,
+    max_move: Length | str | float | None = None,
+    rehearse: bool = False,
+) -> EmbedReport:
+    """Hides a message in a file (and writes it to `out`, of the same kind), or in the current layer of a MeshSet.
+
+    A file is read again, and counts only where the message is there. `key` is a passphrase, `file:PATH` or `env:NAME`;
+    without one it is that of the environment variable WATERMARK_KEY. `max_move` is how far a vertex may move.
+
+    :raises Refused: where the mesh does not carry the message
+    :raises MovesTooMuch: where a vertex would move further
+    :raises FormatError: where a file cannot be read or written
+    :raises NotReadBack: where the written file does not carry the message; it is gone again
+    """
+    settings = Settings(method, statistic, bits, trim)
+    values = {"message": message, "strength": strength, "rehearse": rehearse, **settings.values()}
+    limit = None if max_move is None else read_length(max_move)
+    secret = find_key(key)
+    if isinstance(mesh, pymeshlab.MeshSet):
+        if out is not None:
+            raise FormatError("A MeshSet is marked in place: save it yourself, and leave out the file's name.")
+        return _embed_layer(mesh, values, secret, limit)
+    if out is None:
+        raise FormatError("Where to write the marked file is missing.")
+    source, target = Path(mesh), Path(out)
+    if source.suffix.lower() != target.suffix.lower():
+        raise FormatError(
+            f"'{target.name}' is of another kind than '{source.name}'. Mark it as {source.suffix}, and convert "
+            "it then: the mark outlives that."
+        )
+    body = read_body(source)
+    with layer_of(body) as (meshes, number):
+        report = _embed(meshes, values, secret)
+        _check_move(report, limit, body.unit)
+        moved = meshes.current_mesh().vertex_matrix()[number]
+    found = Settings(method, statistic, report.carriers, trim)
+    _write_checked(body, moved, target, message, secret, found)
+    return report
+
+
+def detect(
+    mesh: Mesh,
+    *,
+    key: Key | str | None = None,
+    expected: Expected = None,
+    original: File | None = None,
+    method: str = Method.LAYERED,
+    statistic: str = Statistic.MEAN,
+    bits: int = 0,
+    trim: float = -1,
+) -> DetectReport:
+    """Reads a mark, with the key alone or with the unmarked original too, and so from parts and bent copies.
+
+    `expected` is a message to look for, or a list of which one may be there.
+
+    :raises Refused: where the filter cannot look at the mesh
+    :raises FormatError: where a file cannot be read
+    :raises MeshmarkError: where the plugin cannot read with an original
+    """
+    values = Settings(method, statistic, bits, trim).values()
+    secret = find_key(key)
+    with opened(mesh) as meshes, _candidates(expected) as text, secret.lent() as lent:
+        values |= {"key": lent, "expected": text}
+        if original is None:
+            return DetectReport.read(host.apply_with_report(meshes, plugin.DETECT, **values))
+        if not plugin.reads_with_original():
+            raise MeshmarkError("This plugin cannot read with the original. Build that of this version.")
+        examined = meshes.current_mesh_id()
+        _add(meshes, read_body(Path(original)))
+        values["original"] = meshes.current_mesh_id()
+        meshes.set_current_mesh(examined)
+        try:
+            return DetectReport.read(host.apply_with_report(meshes, plugin.DETECT_WITH_ORIGINAL, **values))
+        finally:
+            meshes.set_current_mesh(values["original"])
+            meshes.delete_current_mesh()
+            meshes.set_current_mesh(examined)
+
+
+def attack(
+    mesh: Mesh, out: File | None = None, *, attack: str, amount: float = -1, iterations: int = -1, seed: int = 0
+) -> AttackReport:
+    """Does to a mesh what a user, a format or an adversary might. A file keeps its shape only.
+
+    :raises Refused: where the amount is out of range
+    :raises FormatError: where a file cannot be read or written
+    """
+    values = {"attack": attack, "amount": amount, "iterations": iterations, "seed": seed}
+    if not isinstance(mesh, pymeshlab.MeshSet) and out is None:
+        raise FormatError("Where to write the attacked file is missing.")
+    with opened(mesh) as meshes:
+        numbers = host.apply(meshes, plugin.ATTACK, **values)
+        if out is not None:
+            host.save(meshes, Path(out))
+    return AttackReport.read({"attack": attack, "iterations": iterations, **numbers})
+
+
+def measure(
+    mesh: Mesh, reference: File | None = None, *, reference_layer: int | None = None, samples: int = 0, seed: int = 0
+) -> DistortionReport:
+    """How far a file is from another, or the current layer of a MeshSet from its layer `reference_layer`.
+
+    :raises Refused: where there is nothing to compare
+    :raises FormatError: where a file cannot be read
+    """
+    values = {"samples": samples, "seed": seed}
+    if isinstance(mesh, pymeshlab.MeshSet):
+        if reference_layer is None:
+            raise FormatError("The number of the layer to compare with is missing.")
+        json = host.apply_with_report(mesh, plugin.MEASURE, reference=reference_layer, **values)
+        return DistortionReport.read(json)
+    if reference is None:
+        raise FormatError("The file to compare with is missing.")
+    with host.own_meshes() as meshes:
+        for file in (reference, mesh):
+            _add(meshes, read_body(Path(file)))
+        json = host.apply_with_report(meshes, plugin.MEASURE, reference=0, **values)
+    return DistortionReport.read(json)
+
+
+@contextmanager
+def opened(mesh: Mesh) -> Iterator[pymeshlab.MeshSet]:
+    """The MeshSet itself, or one with the body of the file."""
+    if isinstance(mesh, pymeshlab.MeshSet):
+        yield mesh
+        return
+    with layer_of(read_body(Path(mesh))) as (meshes, _):
+        yield meshes
+
+
+@contextmanager
+def layer_of(body: Body) -> Iterator[tuple[pymeshlab.MeshSet, object]]:
+    """A MeshSet with this body as its only layer, and the number of each of its points there."""
+    with host.own_meshes() as meshes:
+        yield meshes, _add(meshes, body)
+
+
+def _add(meshes: pymeshlab.MeshSet, body: Body) -> object:
+    points, number = weld(body.points)
+    meshes.add_mesh(pymeshlab.Mesh(points, number[body.faces].astype("int32")))
+    return number
+
+
+def _embed(meshes: pymeshlab.MeshSet, values: dict[str, host.Value], key: Key) -> EmbedReport:
+    with key.lent() as lent:
+        return EmbedReport.read(host.apply_with_report(meshes, plugin.EMBED, key=lent, **values))
+
+
+def _embed_layer(
+    meshes: pymeshlab.MeshSet, values: dict[str, host.Value], key: Key, limit: Length | None
+) -> EmbedReport:
+    """In place; tried on a copy first where it might move too much."""
+    if limit is not None:
+        mesh = meshes.current_mesh()
+        with host.own_meshes() as copy:
+            copy.add_mesh(pymeshlab.Mesh(mesh.vertex_matrix(), mesh.face_matrix()))
+            _check_move(_embed(copy, values, key), limit, "mm")
+    return _embed(meshes, values, key)
+
+
+def _check_move(report: EmbedReport, limit: Length | None, unit: str) -> None:
+    if limit is None:
+        return
+    most = limit.within(unit)
+    if report.max_displacement <= most:
+        return
+    strength = report.strength * most / report.max_displacement * 0.9
+    slides = f"Method {Method.WAVES} slides no vertices along the surface and may fit; or "
+    raise MovesTooMuch(
+        f"The mark moves a vertex by {report.max_displacement:.3g} {unit}, and {most:.3g} {unit} are allowed. "
+        f"{'' if report.method == Method.WAVES else slides}a strength of {strength:.2g}, with a weaker mark. "
+        f"The file's unit is taken to be {unit}."
+    )
+
+
+def _write_checked(body: Body, moved: object, target: Path, message: str, key: Key, settings: Settings) -> None:
+    """Writes beside the target, reads that again, and puts it in the target's place where the message is there."""
+    part = target.with_name(f".{os.getpid()}-{target.name}")
+    try:
+        body.write(part, moved)
+        found = detect(part, key=key, expected=message, **settings.values())
+        if not found.present:
+            raise NotReadBack(f"'{target}' does not read back: {found.verdict} Nothing was written.")
+        part.replace(target)
+    except OSError as error:
+        raise FormatError(f"'{target}' cannot be written: {error.strerror}.") from error
+    finally:
+        part.unlink(missing_ok=True)
+
+
+@contextmanager
+def _candidates(expected: Expected) -> Iterator[str]:
+    """What the filter takes: a message, or a file of them."""
+    if expected is None or isinstance(expected, str):
+        yield expected or ""
+        return
+    with tempfile.TemporaryDirectory(prefix="meshmark-") as folder:
+        file = Path(folder) / "candidates"
+        file.write_text("\n".join(expected) + "\n", encoding="utf-8")
+        yield f"file:{file}"

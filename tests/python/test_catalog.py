@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A catalogue's copies: whole, each once, whatever kills the run; and a ledger that always agrees with the files."""
+
+import hashlib
+import json
+import os
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import closing
+from dataclasses import replace
+from pathlib import Path
+
+import meshmark
+import pytest
+from bodies import body, write_bodies
+from dask.distributed import LocalCluster
+from meshmark.catalog import Ledger, Order, forecast, make_copies
+from meshmark.catalog import ledger as ledger_module
+from meshmark.catalog.recipients import read_recipients
+from meshmark.settings import Settings
+
+KEY = "correct horse battery staple"
+SCHEDULER = ""
+COMMAND = Path(sys.executable).parent / "meshmark"
+
+
+@pytest.fixture(scope="module")
+def scheduler() -> Iterator[str]:
+    """Of a worker in this process: starting others takes longer than all that is tested here."""
+    with LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None) as cluster:
+        yield cluster.scheduler_address
+
+
+@pytest.fixture
+def order(tmp_path: Path, scheduler: str, monkeypatch: pytest.MonkeyPatch) -> Order:
+    monkeypatch.setattr(sys.modules[__name__], "SCHEDULER", scheduler)
+    (tmp_path / "secret.key").write_text(KEY)
+    write_bodies(tmp_path / "models", range(1))
+    (tmp_path / "who.csv").write_text("recipient\nJane Doe\nÅke\n", encoding="utf-8")
+    return Order(
+        tmp_path / "models",
+        tmp_path / "out",
+        read_recipients(tmp_path / "who.csv"),
+        meshmark.Key(f"file:{tmp_path / 'secret.key'}"),
+        Settings(method="Waves"),
+    )
+
+
+def made(order: Order, **options: object) -> object:
+    return make_copies(order, order.copies / "ledger.sqlite", scheduler=SCHEDULER, **options)
+
+
+def visible(folder: Path) -> dict[str, str]:
+    """The finished files and their hashes."""
+    return {
+        path.relative_to(folder).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in folder.rglob("*.stl")
+        if not path.name.startswith(".")
+    }
+
+
+def entered(folder: Path, finished: bool = True) -> dict[str, str]:
+    """The ledger's files and hashes; not those on their way where only finished ones are wanted."""
+    with closing(sqlite3.connect(folder / "ledger.sqlite")) as sql:
+        where = "WHERE part IS NULL" if finished else ""
+        return dict(sql.execute(f"SELECT file, sha256 FROM copies {where}"))
+
+
+def test_each_copy_says_whose_it_is_and_the_ledger_knows(order: Order) -> None:
+    outcome = made(order)
+    assert (outcome.made, outcome.before, outcome.refused, outcome.broken) == (2, 0, {}, {})
+    assert 0 < outcome.embedded < outcome.worked
+    assert visible(order.copies) == entered(order.copies)
+    with Ledger(order.copies / "ledger.sqlite") as ledger:
+        names = ledger.recipients()
+        assert sorted(name for name, _ in names.values()) == ["Jane Doe", "Åke"]
+        for copy in ledger.copies():
+            message = f"id:{names[copy.recipient][1]}"
+            found = meshmark.detect(order.copies / copy.file, expected=message, key=KEY, **copy.recipe.values())
+            assert found.found
+            assert copy.figures["mrms_relative"] < 2e-4
+    assert not [path for path in order.copies.rglob("*") if path.is_file() and KEY.encode() in path.read_bytes()]
+    again = made(order)
+    assert (again.made, again.before) == (0, 2)
+
+
+def test_killed_halfway_and_run_again_all_are_there_and_none_twice(order: Order, tmp_path: Path) -> None:
+    write_bodies(order.models, range(2))
+    (tmp_path / "who.csv").write_text("recipient\n" + "".join(f"buyer {n}\n" for n in range(6)))
+    line = [COMMAND, "catalog", "models", "who.csv", "out", "--method", "Waves", "--workers", "2", "--json",
+            "--key-file", "secret.key"]  # fmt: skip
+    with subprocess.Popen(line, cwd=tmp_path, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL) as run:
+        while run.poll() is None and len(visible(order.copies)) < 5:
+            time.sleep(0.02)
+        assert run.poll() is None, "it was done before it could be killed"
+        os.kill(run.pid, signal.SIGKILL)
+    files = visible(order.copies)
+    assert entered(order.copies).items() <= files.items() <= entered(order.copies, finished=False).items()
+    kept = {name: (order.copies / name).stat().st_mtime_ns for name in entered(order.copies)}
+
+    done = subprocess.run(line, cwd=tmp_path, text=True, stdout=subprocess.PIPE, check=True)
+    outcome = json.loads(done.stdout)
+    files = visible(order.copies)
+    assert len(files) == 12
+    assert files == entered(order.copies)
+    assert outcome["made"] + outcome["before"] == 12
+    assert outcome["before"] >= 4
+    assert all((order.copies / name).stat().st_mtime_ns == when for name, when in kept.items())
+    assert not list(order.copies.rglob(".part*"))
+
+
+def test_a_crash_between_entry_and_file_is_settled(order: Order, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The one moment in which they do not agree."""
+
+    def crash(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(ledger_module, "_bring", crash)
+        with pytest.raises(KeyboardInterrupt):
+            made(order)
+    assert visible(order.copies) == {}
+    assert len(entered(order.copies, finished=False)) == 1
+    assert (made(order).made, len(visible(order.copies))) == (1, 2)
+    assert visible(order.copies) == entered(order.copies)
+    with closing(sqlite3.connect(order.copies / "ledger.sqlite")) as sql, sql:
+        (name,) = sql.execute("SELECT file FROM copies").fetchone()
+        sql.execute("UPDATE copies SET part = 'gone' WHERE file = ?", (name,))
+    (order.copies / name).unlink()  # lost on its way
+    assert made(order).made == 1
+    assert visible(order.copies) == entered(order.copies)
+
+
+def test_a_forecast_leaves_nothing(order: Order, tmp_path: Path) -> None:
+    plan = forecast(order, order.copies / "ledger.sqlite", workers=2)
+    assert (plan.copies, plan.before, plan.bytes) == (2, 0, 2 * sum(p.stat().st_size for p in order.models.iterdir()))
+    assert plan.seconds > 0
+    assert not order.copies.exists()
+    made(replace(order, recipients=order.recipients[:1]))
+    before = entered(order.copies)
+    plan = forecast(order, order.copies / "ledger.sqlite")
+    assert (plan.copies, plan.before) == (1, 1)
+    assert entered(order.copies) == before == visible(order.copies)
+
+
+def test_another_key_is_refused(order: Order, tmp_path: Path) -> None:
+    made(replace(order, recipients=order.recipients[:1]))
+    (tmp_path / "another.key").write_text("another")
+    with pytest.raises(meshmark.MeshmarkError, match="another key"):
+        made(replace(order, key=meshmark.Key(f"file:{tmp_path / 'another.key'}")))
+    with pytest.raises(meshmark.MeshmarkError, match="file or in an environment variable"):
+        made(replace(order, key=meshmark.Key("a passphrase")))
+
+
+def test_a_model_that_changed_gets_new_copies_beside_the_old_ones(order: Order) -> None:
+    made(order)
+    old = visible(order.copies)
+    body(5).export(order.models / "body0.stl")
+    assert made(order).made == 2
+    new = visible(order.copies)
+    assert old.items() <= new.items()
+    assert {Path(name).name for name in new.keys() - old.keys()} == {"body0-2.stl"}
+    assert new == entered(order.copies)
+
+
+def test_what_moves_too_much_is_refused_and_tried_again_when_told(order: Order) -> None:
+    outcome = made(replace(order, max_move=meshmark.length.read_length("1um")))
+    assert (outcome.made, len(outcome.refused)) == (0, 2)
+    assert all("are allowed" in reason for reason in outcome.refused.values())
+    assert visible(order.copies) == {}
+    assert (made(order).made, made(order, retry=True).made) == (0, 2)
+
+
+def test_one_broken_model_does_not_stop_the_others(order: Order) -> None:
+    (order.models / "broken.stl").write_bytes(b"nothing")
+    outcome = made(order)
+    assert outcome.made == 2
+    assert list(outcome.broken) == ["broken.stl"]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("recipient\nJane\nJane\n Bob \n\n", {"Jane": (), "Bob": ()}),
+        ("number,recipient\n1,Jane\n", {"Jane": ()}),
+        ("name;x\nJane\n", {"Jane": ()}),
+        ("recipient,model\nJane,a.stl\nJane,b*.stl\nBob,\n", {"Jane": ("a.stl", "b*.stl"), "Bob": ()}),
+        ('\ufeffrecipient,model\n"Doe, Jane",a.stl\n"Doe, Jane",\n', {"Doe, Jane": ()}),
+    ],
+)
+def test_csv(tmp_path: Path, text: str, expected: dict) -> None:
+    (tmp_path / "who.csv").write_text(text, encoding="utf-8")
+    assert {one.name: one.models for one in read_recipients(tmp_path / "who.csv")} == expected
+
+
+def test_csv_that_names_nobody(tmp_path: Path) -> None:
+    for text in ("", "recipient\n", "recipient\n\n \n"):
+        (tmp_path / "who.csv").write_text(text)
+        with pytest.raises(meshmark.MeshmarkError, match="names nobody"):
+            read_recipients(tmp_path / "who.csv")
+    (tmp_path / "who.csv").write_bytes(b"recipient\n\xff\xfe\n")
+    with pytest.raises(meshmark.MeshmarkError, match="UTF-8"):
+        read_recipients(tmp_path / "who.csv")

@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whose copy is it: the right name through what files go through, nobody for what is not ours, and no guesses."""
+
+import sys
+from pathlib import Path
+
+import meshmark
+import numpy as np
+import pytest
+import trimesh
+from bodies import body, write_bodies
+from dask.distributed import LocalCluster
+from meshmark import plugin
+from meshmark.catalog import Ledger, Order, make_copies
+from meshmark.catalog.recipients import Recipient
+from meshmark.command.app import main
+from meshmark.formats import Body, read_body
+from meshmark.settings import Settings
+from meshmark.shape.pieces import pieces
+from meshmark.shape.signature import body_signature, difference, signature
+from meshmark.tracing import Answer, Trace, trace
+
+KEY = "correct horse battery staple"
+
+
+class Shop:
+    """A catalogue of two models, one key, one ledger."""
+
+    def __init__(self, folder: Path, scheduler: str, secret: str, buyers: list[str]) -> None:
+        self.folder = folder
+        self.key = meshmark.Key(f"file:{folder / 'secret.key'}")
+        (folder / "secret.key").write_text(secret)
+        write_bodies(folder / "models", range(2))
+        recipients = [Recipient(name, ()) for name in buyers]
+        order = Order(folder / "models", folder / "out", recipients, self.key, Settings(method="Waves"))
+        assert make_copies(order, folder / "ledger.sqlite", scheduler=scheduler).made == 2 * len(buyers)
+
+    def copy(self, name: str, number: int) -> Path:
+        (found,) = (self.folder / "out").glob(f"*-{name}/body{number}.stl")
+        return found
+
+    def trace(self, path: Path) -> Trace:
+        with Ledger(self.folder / "ledger.sqlite") as ledger:
+            return trace(path, ledger, self.key)
+
+
+@pytest.fixture(scope="module")
+def shops(tmp_path_factory: pytest.TempPathFactory) -> tuple[Shop, Shop]:
+    with LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None) as cluster:
+        address = cluster.scheduler_address
+        ours = Shop(tmp_path_factory.mktemp("ours"), address, "our key", ["Jane", "Bob"])
+        theirs = Shop(tmp_path_factory.mktemp("theirs"), address, "their key", ["Jane"])
+    return ours, theirs
+
+
+def loaded(path: Path) -> trimesh.Trimesh:
+    return trimesh.load_mesh(path)
+
+
+def test_a_name_through_formats_mirrors_and_plates(shops: tuple[Shop, Shop], tmp_path: Path) -> None:
+    shop = shops[0]
+    jane = loaded(shop.copy("Jane", 1))
+    turn = trimesh.transformations.rotation_matrix(1, [1, 2, 3]) @ np.diag([-25.4, 25.4, 25.4, 1])
+    jane.copy().apply_transform(turn).export(tmp_path / "mirrored, turned, in inches.glb")
+    others = [loaded(shop.copy("Bob", 1)).apply_translation([200 * k, 0, 0]) for k in (1, 2, 3)]
+    trimesh.util.concatenate([body(3), *others]).export(tmp_path / "plate.stl")
+    meshmark.attack(shop.copy("Jane", 1), tmp_path / "half.ply", attack="Simplify", amount=0.5)
+    for file, name, piece in [
+        (shop.copy("Jane", 1), "Jane", "the whole file"),
+        (tmp_path / "mirrored, turned, in inches.glb", "Jane", "the whole file"),
+        (tmp_path / "half.ply", "Jane", "the whole file"),
+        (tmp_path / "plate.stl", "Bob", "piece "),
+    ]:
+        result = shop.trace(file)
+        assert (result.answer, result.recipient, result.model) == (Answer.NAME, name, "body1.stl"), file
+        assert result.p < 1e-6
+        assert not result.mixed
+        assert result.piece.startswith(piece)
+        assert name in result.sentence
+
+
+def test_nobody_for_unmarked_models_and_for_another_shop(shops: tuple[Shop, Shop], tmp_path: Path) -> None:
+    ours, theirs = shops
+    meshmark.attack(ours.folder / "models" / "body0.stl", tmp_path / "unmarked.ply", attack="Noise", amount=0.0005)
+    for file in (tmp_path / "unmarked.ply", theirs.copy("Jane", 0)):
+        result = ours.trace(file)
+        assert (result.answer, result.recipient, result.model) == (Answer.NOBODY, None, "body0.stl"), result.sentence
+        assert result.p > 1e-6
+
+
+def test_no_guess_where_it_cannot_be_told(shops: tuple[Shop, Shop], tmp_path: Path) -> None:
+    shop = shops[0]
+    meshmark.attack(shop.copy("Jane", 0), tmp_path / "ruined.ply", attack="Noise", amount=0.03)
+    meshmark.attack(shop.copy("Jane", 0), tmp_path / "coarse.ply", attack="Simplify", amount=0.95)
+    for name in ("coarse.ply", "ruined.ply"):
+        result = shop.trace(tmp_path / name)
+        assert (result.answer, result.recipient) == (Answer.CANNOT_TELL, None), result.sentence
+
+
+def test_a_copy_that_is_not_in_the_ledger_names_nobody(shops: tuple[Shop, Shop], tmp_path: Path) -> None:
+    shop = shops[0]
+    source = shop.folder / "models" / "body0.stl"
+    meshmark.embed(source, tmp_path / "x.stl", message="id:5", key=shop.key, method="Waves")
+    result = shop.trace(tmp_path / "x.stl")
+    assert (result.answer, result.recipient) == (Answer.CANNOT_TELL, None)
+    assert "id:5" in result.sentence
+
+
+@pytest.mark.skipif(not plugin.reads_with_original(), reason="the plugin has no filter that reads with an original")
+def test_a_part_is_read_with_the_original(shops: tuple[Shop, Shop], tmp_path: Path) -> None:
+    shop = shops[0]
+    meshmark.attack(shop.copy("Bob", 1), tmp_path / "part.ply", attack="Crop", amount=0.3)
+    with Ledger(shop.folder / "ledger.sqlite") as ledger:
+        assert trace(tmp_path / "part.ply", ledger, shop.key).answer == Answer.CANNOT_TELL
+        result = trace(tmp_path / "part.ply", ledger, shop.key, shop.folder / "models")
+    assert (result.answer, result.recipient, result.model) == (Answer.NAME, "Bob", "body1.stl"), result.sentence
+    assert result.tries == 1 + 2  # blind, and with either model
+
+
+def test_p_counts_candidates_and_readings(shops: tuple[Shop, Shop], tmp_path: Path) -> None:
+    """One message looked for by itself reads better by the factor of what else was looked for, and looked at."""
+    shop = shops[0]
+    trimesh.util.concatenate([loaded(shop.copy("Bob", 0)), body(3).apply_translation([300, 0, 0])]).export(
+        tmp_path / "two.stl"
+    )
+    result = shop.trace(tmp_path / "two.stl")
+    best = min(result.readings, key=lambda one: one.p)
+    assert [one.piece for one in result.readings] in (
+        ["the whole file", "piece 1 of 2"],
+        ["the whole file", "piece 1 of 2", "piece 2 of 2"],
+    )
+    assert (result.candidates, result.tries) == (2, 3)
+    assert result.p == pytest.approx(3 * best.p)
+    alone = meshmark.detect(
+        shop.copy("Bob", 0), key=shop.key, method="Waves", bits=64, expected=best.report.message
+    ).p_value
+    assert best.p == pytest.approx(2 * alone, rel=1e-3)
+
+
+def test_the_command_says_it_by_its_exit_code(
+    shops: tuple[Shop, Shop], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shop = shops[0]
+    body(6).export(tmp_path / "another object.stl")
+    options = ["--ledger", str(shop.folder / "ledger.sqlite"), "--key-file", str(shop.folder / "secret.key"), "--json"]
+    for file, code in [
+        (shop.copy("Jane", 0), 0),
+        (shop.folder / "models" / "body0.stl", 1),
+        (tmp_path / "nothing.stl", 2),
+        (tmp_path / "another object.stl", 3),
+    ]:
+        monkeypatch.setattr(sys, "argv", ["meshmark", "trace", *options, str(file)])
+        with pytest.raises(SystemExit) as left:
+            main()
+        assert left.value.code == code, file
+
+
+def test_a_signature_is_that_of_the_shape(tmp_path: Path) -> None:
+    """A box of edges a, b, c by hand; turned, moved, scaled, mirrored and cut finer it has the same numbers."""
+    a, b, c = 1.0, 2.0, 3.0
+    box = trimesh.creation.box([a, b, c])
+    found = signature(box.vertices, box.faces.astype(np.int32))
+    radius = (a * b * c * 3 / (4 * np.pi)) ** (1 / 3)
+    assert found[0] == pytest.approx(np.sqrt(2 * (a * b + b * c + c * a) / (4 * np.pi)) / radius)
+    assert found[1:4] == pytest.approx(np.array([a, b, c]) / np.sqrt(12) / radius)
+    assert found[7] == pytest.approx(0, abs=1e-5)
+
+    shape = body(1, level=3)
+    plain = signature(shape.vertices, shape.faces.astype(np.int32))
+    turn = trimesh.transformations.rotation_matrix(1, [1, 2, 3], [40, 5, 6]) @ np.diag([-3, 3, 3, 1])
+    other = shape.subdivide().apply_transform(turn)
+    assert signature(other.vertices, other.faces.astype(np.int32)) == pytest.approx(plain, rel=1e-9)
+    open_one = shape.copy()
+    open_one.update_faces(np.arange(len(shape.faces)) != 7)
+    assert signature(open_one.vertices, open_one.faces.astype(np.int32))[:4] == pytest.approx(plain[:4], rel=1e-2)
+
+    write_bodies(tmp_path, range(8))
+    signatures = [body_signature(read_body(path)) for path in sorted(tmp_path.iterdir())]
+    apart = [difference(x, y) for n, x in enumerate(signatures) for y in signatures[:n]]
+    meshmark.embed(tmp_path / "body1.stl", tmp_path / "marked.stl", message="id:1", key=KEY, method="Waves")
+    marked = body_signature(read_body(tmp_path / "marked.stl"))
+    assert difference(marked, body_signature(read_body(tmp_path / "body1.stl"))) < min(apart) / 4
+
+
+def test_pieces_are_the_large_ones() -> None:
+    big, small, crumb = (trimesh.creation.box([edge] * 3) for edge in (10, 3, 0.1))
+    scene = trimesh.util.concatenate([small.apply_translation([20, 0, 0]), crumb.apply_translation([30, 0, 0]), big])
+    found = pieces(Body(scene.vertices, scene.faces.astype(np.int32), "mm", lambda path, points: None))
+    assert [(piece.name, len(piece.faces)) for piece in found] == [
+        ("the whole file", 36),
+        ("piece 1 of 3", 12),
+        ("piece 2 of 3", 12),
+    ]
+    assert found[1].points.max() == 5
