@@ -53,6 +53,8 @@ Json to_json(const vcg_ext::EmbedReport& report, const std::vector<vcg_ext::Rehe
         {"samples_min", report.samples_min},
         {"capacity", report.capacity},
         {"detection_ratio", report.detection_ratio},
+        {"pieces", report.pieces},
+        {"loose_pieces", report.loose_pieces},
         {"rounds", report.rounds},
         {"moved_vertices", report.moved_vertices},
         {"guarded_vertices", report.guarded_vertices},
@@ -93,6 +95,7 @@ Json to_json(const vcg_ext::DetectReport& report)
         {"carriers", report.carriers},   {"bits", vcg_ext::bit_string(report.bits)},
         {"message", report.message},     {"trim", report.trim},
         {"soft", report.soft},           {"samples", report.samples},
+        {"pieces", report.pieces},       {"loose_pieces", report.loose_pieces},
     };
     const auto add = [&json](const char* field, const auto& value) {
         if (value)

@@ -22,7 +22,9 @@ try {
     const VertexFaces around = vertex_faces(static_cast<int>(surface.points.size()), surface.triangles);
     SurfacePoint source;
     if (std::strcmp(arguments[2], "key") == 0) {
-        source = strip_frame(surface, source_directions(Key(arguments[3]).stream("direction"))).source;
+        source =
+            strip_frame(surface, principal_frame(surface), source_directions(Key(arguments[3]).stream("direction")))
+                .source;
     } else {
         const int vertex = std::stoi(arguments[3]);
         source = {*around.begin(vertex), surface.points.at(vertex)};

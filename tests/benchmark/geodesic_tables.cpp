@@ -225,10 +225,14 @@ void attacks()
                         const VertexFaces around =
                             vertex_faces(static_cast<int>(before.surface.points.size()), before.surface.triangles);
                         const Points directions = source_directions(key_number(key).stream("direction"));
-                        const StripFrame frame = strip_frame(before.surface, directions);
-                        const Strips strips = strips_from(frame, before.surface, around, 0.1, 64);
+                        const StripFrame frame =
+                            strip_frame(before.surface, principal_frame(before.surface), directions);
+                        const Strips strips = strips_from(frame, before.surface, around,
+                                                          static_cast<int>(before.surface.points.size()), 0.1, 64);
                         shifts.push_back(
-                            (strip_frame(after.surface, directions).source.position - frame.source.position).norm() /
+                            (strip_frame(after.surface, principal_frame(after.surface), directions).source.position -
+                             frame.source.position)
+                                .norm() /
                             strips.carriers.width);
                     }
                     std::printf(" %.3f", done > 0 ? ratio / done : std::nan(""));

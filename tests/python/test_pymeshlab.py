@@ -71,7 +71,8 @@ def test_the_report_has_all_results(tmp_path: Path) -> None:
     report = PyMeshLab().run(EMBED, FANDISK, Report=str(tmp_path / "report.json"), **MARK)
     assert list(report) == [
         "method", "statistic", "message", "bits", "strength", "trim", "carriers", "layers", "samples_min", "capacity",
-        "detection_ratio", "rounds", "moved_vertices", "guarded_vertices", "max_displacement", "mrms", "mrms_relative",
+        "detection_ratio", "pieces", "loose_pieces", "rounds", "moved_vertices", "guarded_vertices",
+        "max_displacement", "mrms", "mrms_relative",
         "diagonal", "change", "seconds", "solver", "version", "warnings", "recipe",
     ]  # fmt: skip
     assert report["method"] == "L-M"

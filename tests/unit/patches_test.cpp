@@ -16,7 +16,8 @@ using namespace vcg_ext;
 
 Patches cut(const Surface& surface, double trim)
 {
-    return equal_area_patches(surface, edge_graph(surface), principal_frame(surface), 2, 35, trim);
+    return equal_area_patches(surface.points, solid_topology(surface), edge_graph(surface), principal_frame(surface), 2,
+                              35, trim);
 }
 
 /// Area by patch; each face counts a third at each vertex.
@@ -94,14 +95,14 @@ TEST(Patches, OfATurnedFrameAreTheFlippedOnes)
     const Surface bunny = weld(load("bunny00.off")).surface;
     const EdgeGraph graph = edge_graph(bunny);
     const Frame frame = principal_frame(bunny);
-    const Patches patches = equal_area_patches(bunny, graph, frame, 2, 35, 0.1);
+    const Patches patches = equal_area_patches(bunny.points, solid_topology(bunny), graph, frame, 2, 35, 0.1);
     for (const AxisFlips flips : {AxisFlips{true, false}, AxisFlips{false, true}, AxisFlips{true, true}}) {
         Frame turned = frame;
         if (flips.first)
             turned.axes.col(0) *= -1;
         if (flips.second)
             turned.axes.col(1) *= -1;
-        const Patches other = equal_area_patches(bunny, graph, turned, 2, 35, 0.1);
+        const Patches other = equal_area_patches(bunny.points, solid_topology(bunny), graph, turned, 2, 35, 0.1);
         int changed = 0;
         for (std::size_t v = 0; v < patches.label.size(); ++v)
             changed += (patches.label[v] < 0) != (other.label[v] < 0) ||
@@ -130,7 +131,8 @@ TEST(Patches, RefuseASurfaceWithoutArea)
 {
     const Surface line{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {{0, 1, 2}, {1, 2, 3}}};
     const Frame frame = principal_frame(line);
-    EXPECT_THROW((void)equal_area_patches(line, edge_graph(line), frame, 2, 4, 0.1), Error);
+    EXPECT_THROW((void)equal_area_patches(line.points, solid_topology(line), edge_graph(line), frame, 2, 4, 0.1),
+                 Error);
     EXPECT_THROW((void)thesis_patches(line, frame, 2, 8, 0.1), Error);
 }
 

@@ -2,7 +2,7 @@
 #include "support/load.h"
 #include "support/shapes.h"
 #include "support/topology.h"
-#include "vcg_ext/base/weld.h"
+#include "vcg_ext/geometry/body.h"
 #include "vcg_ext/geometry/solid.h"
 
 #include <algorithm>
@@ -15,9 +15,9 @@ using namespace vcg_ext;
 
 Frame frame_of(const Surface& surface)
 {
-    const Surface welded = weld(surface).surface;
-    const SolidTopology topology = solid_topology(welded);
-    return solid_frame(solid_points(topology, welded.points), topology.triangles);
+    const Surface mended = body_of(surface).surface;
+    const SolidTopology topology = solid_topology(mended);
+    return solid_frame(solid_points(topology, mended.points), topology.triangles);
 }
 
 /// How far the frames differ, in units of the body: positions by the radius, axes by their angle.

@@ -114,7 +114,7 @@ TEST(Spectral, ASymmetricBodyIsReadWhicheverWayItLies)
         (void)apply_attack(noisy, noise);
         // A push to one side outweighs what embedding left.
         for (Point& p : noisy.points)
-            p += Point((i & 1) ? 3e-5 : -3e-5, (i & 2) ? 3e-5 : -3e-5, 0).cwiseProduct(p).cwiseProduct(p);
+            p += Point((i & 1) ? 1e-4 : -1e-4, (i & 2) ? 1e-4 : -1e-4, 0).cwiseProduct(p).cwiseProduct(p);
         const DetectReport blind = detect(noisy, key, reading);
         EXPECT_EQ(blind.bits, options.message.bits) << i;
         reading.expected = {options.message};

@@ -6,10 +6,10 @@
 #include "vcg_ext/base/error.h"
 #include "vcg_ext/carrier/statistic.h"
 #include "vcg_ext/carrier/strips.h"
-#include "vcg_ext/geometry/moments.h"
 #include "vcg_ext/key/key.h"
 #include "vcg_ext/watermark/watermark.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ VertexFaces around(const Surface& s)
 
 SurfacePoint keyed_source(const Surface& s, const Key& key)
 {
-    return strip_frame(s, source_directions(key.stream("direction"))).source;
+    return strip_frame(s, principal_frame(s), source_directions(key.stream("direction"))).source;
 }
 
 TEST(KeyedSource, FollowsTheBody)
@@ -79,10 +79,13 @@ TEST(KeyedSource, SaysWhereNoRayCanHit)
 TEST(Strips, AreCutFromTheSourceToTheFarthestVertex)
 {
     const Surface s = shapes::sphere(5);
-    const SurfacePoint source = keyed_source(s, test_key());
-    const Strips strips = strips_from({source, {}, false}, s, around(s), 0.1, 16);
+    const SurfacePoint source = *farthest_hit(s, Point::Zero(), Point(3, 2, 1));
+    const Strips strips = strips_from({source, {}, false}, s, around(s), static_cast<int>(s.points.size()), 0.1, 16);
     const double pi = std::acos(-1.0);
-    EXPECT_NEAR(strips.farthest, pi, 0.03);
+    double farthest = 0; // over vertices
+    for (const Point& p : s.points)
+        farthest = std::max(farthest, std::acos(std::clamp(p.dot(source.position.normalized()), -1.0, 1.0)));
+    EXPECT_NEAR(strips.farthest, farthest, 0.03);
     EXPECT_DOUBLE_EQ(strips.carriers.low, 0.1 * strips.farthest);
     EXPECT_DOUBLE_EQ(strips.carriers.width, 0.05 * strips.farthest);
     EXPECT_EQ(strips.unreached, 0);
@@ -101,7 +104,7 @@ TEST(Strips, OtherPartsCarryNothing)
     const Surface sphere = shapes::sphere(4);
     const Surface s = joined(sphere, shapes::moved(shapes::box(1, 1, 1), 0.1, 0, {1, 0, 0}, {0, 0, 0}));
     const SurfacePoint source{0, s.points[s.triangles[0][0]]};
-    const Strips strips = strips_from({source, {}, false}, s, around(s), 0.1, 8);
+    const Strips strips = strips_from({source, {}, false}, s, around(s), static_cast<int>(s.points.size()), 0.1, 8);
     EXPECT_EQ(strips.unreached, 8);
     EXPECT_NEAR(strips.farthest, std::acos(-1.0), 0.05);
     for (std::size_t v = sphere.points.size(); v < s.points.size(); ++v)

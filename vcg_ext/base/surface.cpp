@@ -38,14 +38,14 @@ Points rounded_to_float(const Points& points)
     return result;
 }
 
-Eigen::AlignedBox3d bounding_box(const Surface& surface)
+Eigen::AlignedBox3d bounding_box(const Points& points, const std::vector<Triangle>& triangles)
 {
     using Box = Eigen::AlignedBox3d;
     return ordered_fold(
-        static_cast<int>(surface.triangles.size()), Box(),
+        static_cast<int>(triangles.size()), Box(),
         [&](Box& box, int f) {
-            for (const int v : surface.triangles[f])
-                box.extend(surface.points[v]);
+            for (const int v : triangles[f])
+                box.extend(points[v]);
         },
         [](Box& box, const Box& part) { box.extend(part); });
 }

@@ -53,7 +53,11 @@ struct VertexFaces {
 [[nodiscard]] Points rounded_to_float(const Points& points);
 
 /// The box around the vertices that faces refer to; empty where there are none.
-[[nodiscard]] Eigen::AlignedBox3d bounding_box(const Surface& surface);
+[[nodiscard]] Eigen::AlignedBox3d bounding_box(const Points& points, const std::vector<Triangle>& triangles);
+[[nodiscard]] inline Eigen::AlignedBox3d bounding_box(const Surface& surface)
+{
+    return bounding_box(surface.points, surface.triangles);
+}
 
 /// Length of the bounding box's diagonal over the vertices that faces refer to; 0 where there are none.
 [[nodiscard]] double bounding_diagonal(const Surface& surface);

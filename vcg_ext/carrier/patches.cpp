@@ -146,17 +146,17 @@ int piece_of(const std::vector<double>& cuts, double x)
 
 } // namespace
 
-Patches equal_area_patches(const Surface& surface, const EdgeGraph& graph, const Frame& frame, int layers, int columns,
-                           double trim)
+Patches equal_area_patches(const Points& vertices, const SolidTopology& topology, const EdgeGraph& graph,
+                           const Frame& frame, int layers, int columns, double trim)
 {
     check_frame(frame);
     constexpr int passes = 10;
-    const Points smooth = in_frame(taubin(graph, surface.points, passes), frame);
+    const Points smooth = in_frame(solid_points(topology, taubin(graph, vertices, passes)), frame);
     const Eigen::AlignedBox3d box = bounding_box(smooth);
     const AreaProfile along_first(box.min().x(), box.max().x());
     const AreaProfile along_second(box.min().y(), box.max().y());
     const auto profiles = [&](const std::vector<AreaProfile>& empty, const auto& add) {
-        return area_profiles(smooth, surface.triangles, empty, add);
+        return area_profiles(smooth, topology.triangles, empty, add);
     };
 
     const std::vector<double> ends =
@@ -179,8 +179,8 @@ Patches equal_area_patches(const Surface& surface, const EdgeGraph& graph, const
     for (const AreaProfile& profile : layer_profiles)
         column_cuts.push_back(profile.cuts(equal_shares(columns)));
 
-    Patches patches{layers, columns, std::vector<int>(smooth.size(), -1)};
-    for_each_index(static_cast<int>(smooth.size()), [&](int v) {
+    Patches patches{layers, columns, std::vector<int>(topology.sites, -1)};
+    for_each_index(topology.sites, [&](int v) {
         if (!inside(smooth[v]))
             return;
         const int layer = piece_of(layer_cuts, smooth[v].y());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../geometry/laplacian.h"
-#include "../geometry/moments.h"
+#include "../geometry/solid.h"
 
 namespace vcg_ext {
 
@@ -30,12 +30,12 @@ struct Patches {
 /// Cuts a surface into layers * columns patches of equal area (thesis 3.3).
 ///
 /// All cuts are quantiles of area, of a copy that Taubin passes have smoothed: neither noise, which swells the area of
-/// fine regions, nor a single vertex at the end of an axis moves them. First `trim` of the area is left out at both
+/// fine regions, nor a single vertex at the end of an axis moves them. Holes count with the area of their fans. First `trim` of the area is left out at both
 /// ends of axis 1; then come layers of equal area along axis 2, then in each layer columns of equal area along axis 1.
 /// \param trim in [0, 0.5)
 /// \throw Error where the surface has no area, and so no frame
-[[nodiscard]] Patches equal_area_patches(const Surface& surface, const EdgeGraph& graph, const Frame& frame, int layers,
-                                         int columns, double trim);
+[[nodiscard]] Patches equal_area_patches(const Points& vertices, const SolidTopology& topology, const EdgeGraph& graph,
+                                         const Frame& frame, int layers, int columns, double trim);
 
 /// Cuts as the thesis prints it: trim (3.6) and layers (3.9) by range, then Algorithm 1, vertex by vertex along axis 1.
 /// Its one slip is put right: the leftover at a layer's end takes no number from the next layer.

@@ -16,10 +16,11 @@ std::vector<double> norms(const Points& points, const Point& centre)
     return result;
 }
 
-ShellFrame shell_frame(const Points& points, const std::vector<Triangle>& triangles)
+ShellFrame shell_frame(const Points& points, const SolidTopology& topology)
 {
     ShellFrame frame;
-    frame.centre = area_centre(points, triangles);
+    frame.centre = topology.apexes == 0 ? area_centre(points, topology.triangles)
+                                        : area_centre(solid_points(topology, points), topology.triangles);
     const std::vector<double> all = norms(points, frame.centre);
     const auto [low, high] = std::minmax_element(all.begin(), all.end());
     frame.minimum = *low;

@@ -2,7 +2,6 @@
 #include "strips.h"
 
 #include "../base/error.h"
-#include "../geometry/moments.h"
 #include "../geometry/normal_smoothing.h"
 #include "../key/random.h"
 #include "../key/stream.h"
@@ -37,28 +36,29 @@ Points source_directions(Stream draws)
     return directions;
 }
 
-StripFrame strip_frame(const Surface& surface, const Points& directions)
+StripFrame strip_frame(const Surface& closed, const Frame& frame, const Points& directions)
 {
-    const Frame frame = principal_frame(surface);
     if (frame.measure == 0)
         throw Error("No face of the mesh has an area. Check its coordinates, or reconstruct the surface.");
     const bool doubtful = is_round(frame) || is_symmetric(frame, 0) || is_symmetric(frame, 1);
     for (const Point& direction : directions)
-        if (const auto hit = farthest_hit(surface, frame.centre, frame.axes * direction))
-            return {*hit, {}, frame.from_volume, doubtful};
+        if (const auto hit = farthest_hit(closed, frame.centre, frame.axes * direction))
+            return {*hit, {}, doubtful};
     throw Error("No ray from the mesh's centre meets its surface, so geodesic distances have no source. "
                 "Use another method, or a more complete mesh.");
 }
 
-Strips strips_from(const StripFrame& frame, const Surface& surface, const VertexFaces& around, double trim, int count)
+Strips strips_from(const StripFrame& frame, const Surface& closed, const VertexFaces& around, int carrying, double trim,
+                   int count)
 {
     Strips strips;
-    strips.arrivals = march(surface, around, frame.source);
-    for (const Arrival& arrival : strips.arrivals) {
-        if (std::isinf(arrival.distance))
+    strips.arrivals = march(closed, around, frame.source);
+    strips.carrying = carrying;
+    for (int v = 0; v < carrying; ++v) {
+        if (std::isinf(strips.arrivals[v].distance))
             ++strips.unreached;
         else
-            strips.farthest = std::max(strips.farthest, arrival.distance);
+            strips.farthest = std::max(strips.farthest, strips.arrivals[v].distance);
     }
     if (frame.farthest)
         strips.farthest = *frame.farthest;
@@ -69,9 +69,9 @@ Strips strips_from(const StripFrame& frame, const Surface& surface, const Vertex
 Carriers recut(const Strips& strips, double trim, int count)
 {
     std::vector<double> distances;
-    distances.reserve(strips.arrivals.size());
-    for (const Arrival& arrival : strips.arrivals)
-        distances.push_back(arrival.distance);
+    distances.reserve(strips.carrying);
+    for (int v = 0; v < strips.carrying; ++v)
+        distances.push_back(strips.arrivals[v].distance);
     return cut_range(distances, 0, strips.farthest, trim, count);
 }
 
@@ -90,16 +90,16 @@ SurfacePoint carried_along(const SurfacePoint& source, const Surface& surface, c
     return {source.face, points[a] + along_b * (points[b] - points[a]) + along_c * (points[c] - points[a])};
 }
 
-Strips read_strips(const Surface& surface, const VertexFaces& around, const StripFrame& frame, double trim, int count,
-                   Statistic statistic)
+Strips read_strips(const Surface& closed, const VertexFaces& around, int carrying, const StripFrame& frame, double trim,
+                   int count, Statistic statistic)
 {
     Strips best;
     double most = -1;
     for (const int rounds : {0, 1, 3}) {
-        const Surface smooth{smoothed_along_normals(surface, around, rounds, 0.5), surface.triangles};
+        const Surface smooth{smoothed_along_normals(closed, around, rounds, 0.5), closed.triangles};
         StripFrame here = frame;
-        here.source = carried_along(frame.source, surface, smooth.points);
-        Strips strips = strips_from(here, smooth, around, trim, count);
+        here.source = carried_along(frame.source, closed, smooth.points);
+        Strips strips = strips_from(here, smooth, around, carrying, trim, count);
         const double found = evidence(strips.carriers, statistic);
         if (found > most) {
             most = found;

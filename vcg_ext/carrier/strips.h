@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../geometry/fast_marching.h"
+#include "../geometry/solid.h"
 #include "../key/stream.h"
 #include "carriers.h"
 
@@ -13,13 +14,13 @@ struct StripFrame {
     SurfacePoint source;
     /// T_max; T_min is 0, the source itself. Empty: the farthest distance that the march finds.
     std::optional<double> farthest;
-    bool from_volume = false; ///< whether the source was found in the frame of the enclosed solid (principal_frame)
-    bool doubtful = false;    ///< whether that frame may turn: a round body, or one that is even along an axis
+    bool doubtful = false; ///< whether the body's frame may turn: a round body, or one that is even along an axis
 };
 
 /// Strips of equal geodesic distance from a point that only the key knows.
 struct Strips {
-    std::vector<Arrival> arrivals; ///< per vertex
+    std::vector<Arrival> arrivals; ///< per point of the surface
+    int carrying = 0;              ///< of these the first, the vertices; after them come the apexes of holes
     double farthest = 0;           ///< T_max
     Carriers carriers;
     int smoothing_rounds = 0; ///< of the surface before the march, see read_strips()
@@ -29,16 +30,19 @@ struct Strips {
 /// Directions in a body's own frame, the one after the other to be tried as the way to the source.
 [[nodiscard]] Points source_directions(Stream draws);
 
+// All that follows walks over a closed surface: solid_points() with the topology's triangles. So the front crosses
+// holes, filled or not. `carrying` is the number of its vertices; the apexes after them carry nothing.
+
 /// Finds the source: the farthest point of the surface in a direction of the body's own frame, the next direction where
 /// the ray misses (4.3).
 ///
 /// \throw Error where no ray from the centre meets the surface
-[[nodiscard]] StripFrame strip_frame(const Surface& surface, const Points& directions);
+[[nodiscard]] StripFrame strip_frame(const Surface& closed, const Frame& frame, const Points& directions);
 
 /// Distances from the frame's source, and the strips between `trim` and 1 - `trim` of the farthest ((4.4)-(4.6) with
 /// their offset put right). \param around of the surface's triangles
-[[nodiscard]] Strips strips_from(const StripFrame& frame, const Surface& surface, const VertexFaces& around,
-                                 double trim, int count);
+[[nodiscard]] Strips strips_from(const StripFrame& frame, const Surface& closed, const VertexFaces& around,
+                                 int carrying, double trim, int count);
 
 /// The strips, were there `count` of them.
 [[nodiscard]] Carriers recut(const Strips& strips, double trim, int count);
@@ -52,7 +56,7 @@ struct Strips {
 /// smoothing along the normals, which keeps the density along the surface that carries the mark. That reading is taken
 /// whose statistics lie farthest from their threshold: largest sum of n s^2. It never looks at the mask, so p stays
 /// exact.
-[[nodiscard]] Strips read_strips(const Surface& surface, const VertexFaces& around, const StripFrame& frame,
-                                 double trim, int count, Statistic statistic);
+[[nodiscard]] Strips read_strips(const Surface& closed, const VertexFaces& around, int carrying,
+                                 const StripFrame& frame, double trim, int count, Statistic statistic);
 
 } // namespace vcg_ext

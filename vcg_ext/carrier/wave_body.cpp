@@ -89,7 +89,7 @@ WaveBody wave_body(const Surface& surface)
     body.diagonal = bounding_diagonal(surface);
     body.points = solid_points(body.topology, surface.points);
     body.frame = solid_frame(body.points, body.topology.triangles);
-    if (body.frame.measure == 0)
+    if (body.frame.measure == 0 || !body.topology.orientable)
         throw Error(
             "The mesh encloses nothing: its faces bound no solid. Waves marks bodies; close the mesh, or choose "
             "another method.");

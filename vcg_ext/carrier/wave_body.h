@@ -25,7 +25,7 @@ struct WaveBody {
     double diagonal = 0; ///< of the bounding box, in the mesh's unit
 };
 
-/// \pre the surface is welded  \throw Error where it encloses nothing
+/// \pre the surface is mended, see body_of()  \throw Error where it encloses nothing
 [[nodiscard]] WaveBody wave_body(const Surface& surface);
 
 /// The frame by the body's rule of other points in its place, the axes nearest to `like`. `measure` 0 or of another

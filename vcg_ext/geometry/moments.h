@@ -5,6 +5,8 @@
 namespace vcg_ext {
 
 /// The coordinate system that a body itself defines, whatever its position, rotation and scale.
+///
+/// A body with equal variances or without third moments has no unique frame: `variances` and `third_moments` show that.
 struct Frame {
     Point centre = Point::Zero();
     /// Columns: the unit principal axes by descending variance; right-handed. The third moments along the first two are
@@ -12,9 +14,19 @@ struct Frame {
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
     Point variances = Point::Zero();     ///< mean of x^2, y^2, z^2 in the frame; descending
     Point third_moments = Point::Zero(); ///< mean of x^3, y^3, z^3 in the frame: M300, M030, M003 over the measure
-    double measure = 0;                  ///< signed volume (negative: inside out), or the area
+    double measure = 0;                  ///< signed volume (negative: inside out), or the area; 0: there is no frame
     bool from_volume = false;            ///< moments of the enclosed solid; else of the surface itself
 };
+
+/// The frame of the solid that the triangles bound ((3.1)-(3.5)): `measure` is the signed volume, by which all moments
+/// are divided, so that a body turned inside out has the same frame. It is 0 where the triangles enclose nothing to
+/// speak of or their second moments are no solid's.
+///
+/// \pre the triangles' boundary is empty, or the moments depend on where the origin is
+[[nodiscard]] Frame solid_frame(const Points& points, const std::vector<Triangle>& triangles);
+
+/// The frame of the surface itself, weighted by area. `measure` is 0 where no face has one.
+[[nodiscard]] Frame area_frame(const Points& points, const std::vector<Triangle>& triangles);
 
 /// Whether the body is so even along an axis (0 to 2) that its third moment there may change sign.
 [[nodiscard]] bool is_symmetric(const Frame& frame, int axis);
@@ -22,21 +34,7 @@ struct Frame {
 /// Whether two variances are so near to each other that the axes may turn, or swap.
 [[nodiscard]] bool is_round(const Frame& frame);
 
-/// Whether the faces bound a solid: each edge is used as often in one direction as in the other.
-[[nodiscard]] bool is_closed_and_oriented(const Surface& surface);
-
 /// Sum of the signed tetrahedra over `centre` (3.2); for a closed surface its volume, whatever `centre` is.
 [[nodiscard]] double signed_volume(const Surface& surface, const Point& centre = Point::Zero());
-
-/// Aligns a body by its moments: centre, principal axes, and the axes' signs by the third moments ((3.1)-(3.5)).
-///
-/// Where the surface is closed and oriented, these are the moments of the solid. Each is divided by the signed volume,
-/// so that a body turned inside out has the same frame. For any other surface, and for one that encloses nothing, they
-/// are those of the surface, weighted by area.
-///
-/// A body with equal variances or without third moments has no unique frame: `variances` and `third_moments` show that.
-///
-/// \pre the surface has a face with an area
-[[nodiscard]] Frame principal_frame(const Surface& surface);
 
 } // namespace vcg_ext

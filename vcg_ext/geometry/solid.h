@@ -11,32 +11,37 @@ namespace vcg_ext {
 /// put back, a doubled one is taken away once, one turned round is put right, all exactly: the fan over a triangle's
 /// edges is the triangle. Nothing jumps, since no edge decides between two definitions of the solid.
 struct SolidTopology {
-    std::vector<Triangle> triangles; ///< those of the surface, over sites, then those of the fans
-    std::vector<int> site_of_vertex; ///< vertices of the boundary that lie together are one site; empty: all apart
-    int sites = 0;                   ///< points from here on are the fans' apexes
+    std::vector<Triangle> triangles; ///< those of the surface, then those of the fans
+    int sites = 0;                   ///< the surface's vertices; points from here on are the fans' apexes
     int apexes = 0;
     int surface_triangles = 0;            ///< triangles from here on are the fans'
     std::vector<std::array<int, 3>> rims; ///< edges of the boundary, from, to, and the apex they are closed to
+    /// Whether neighbours run round the same way throughout. Where no way to turn them makes them, there is no inside and
+    /// are no fans.
+    bool orientable = true;
 
     [[nodiscard]] int points() const { return sites + apexes; }
 };
 
-/// Vertices of the boundary within 1e-5 of the diagonal of each other (less where the boundary's edges are short) are
-/// sewn; where neighbours run round in opposite ways, the way of the greater area is taken throughout their component.
-///
-/// \pre the surface is welded
+/// \pre the surface is mended, see body_of()
 [[nodiscard]] SolidTopology solid_topology(const Surface& surface);
 
-/// The points that the topology's triangles refer to: a site is the mean of its vertices, an apex the mean of its
-/// fan's edges by length.
+/// The points that the topology's triangles refer to: an apex is the mean of its fan's edges by length.
 [[nodiscard]] Points solid_points(const SolidTopology& topology, const Points& vertices);
 
 /// Puts the apexes where the sites are now. \pre `points` holds sites and apexes
 void place_apexes(const SolidTopology& topology, Points& points);
 
-/// The principal frame of the solid: see Frame. `measure` is the signed volume, and 0 where the triangles enclose
-/// nothing to speak of or their second moments are no solid's.
-[[nodiscard]] Frame solid_frame(const Points& points, const std::vector<Triangle>& triangles);
+/// Aligns a body by its moments: centre, principal axes, and the axes' signs by the third moments ((3.1)-(3.5)).
+///
+/// These are the moments of the solid that surface and fans bound. Where they bound none to speak of, as a sheet or a
+/// twisted band does, they are those of surface and fans, weighted by area. Holes, filled or not, are so the same body.
+///
+/// \param points solid_points()  \return `measure` is 0 where no face has an area
+[[nodiscard]] Frame principal_frame(const Points& points, const SolidTopology& topology);
+
+/// \pre the surface is mended, see body_of()
+[[nodiscard]] Frame principal_frame(const Surface& surface);
 
 /// Swaps and turns the frame's axes so that each is the nearest to that of `like`: third moments and variances too.
 void align_axes(Frame& frame, const Eigen::Matrix3d& like);

@@ -12,8 +12,8 @@ namespace {
 /// along. Vertices before the first strip stay, as the front comes to them unchanged; so does the source's own face.
 std::vector<double> front_targets(const Strips& strips, const Triangle& source_face, const std::vector<double>& told)
 {
-    std::vector<double> targets(told.size(), std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t v = 0; v < told.size(); ++v) {
+    std::vector<double> targets(strips.arrivals.size(), std::numeric_limits<double>::quiet_NaN());
+    for (int v = 0; v < strips.carrying; ++v) {
         const double old = strips.arrivals[v].distance;
         if (old >= strips.carriers.low && std::isfinite(old))
             targets[v] = std::isnan(told[v]) ? old : told[v];
@@ -27,10 +27,6 @@ std::vector<double> front_targets(const Strips& strips, const Triangle& source_f
 std::vector<std::string> warnings_of(const StripFrame& frame, const Strips& strips)
 {
     std::vector<std::string> warnings;
-    if (!frame.from_volume)
-        warnings.emplace_back(
-            "The mesh is not closed or not consistently oriented, so it is aligned by the moments of its surface. "
-            "Cutting it or filling its holes afterwards loses the mark.");
     if (frame.doubtful)
         warnings.emplace_back(
             "The body is round or symmetric, so its own axes are not sure, and Geodesic finds its source by them: the "
@@ -42,29 +38,42 @@ std::vector<std::string> warnings_of(const StripFrame& frame, const Strips& stri
     return warnings;
 }
 
+Surface closed(const SolidTopology& topology, const Points& vertices)
+{
+    return {solid_points(topology, vertices), topology.triangles};
+}
+
+StripFrame found(const SolidTopology& topology, const Points& vertices, const Plan& plan)
+{
+    const Surface body = closed(topology, vertices);
+    return strip_frame(body, principal_frame(body.points, topology), plan.directions);
+}
+
 /// The distance from the source as embed_scalar() wants it.
 class Distance {
 public:
-    Distance(const Cover& cover, const Plan& plan, FrontScheme scheme) : cover_(cover), plan_(plan), scheme_(scheme) {}
+    Distance(const Cover& cover, const Plan& plan, FrontScheme scheme)
+        : topology_(solid_topology(cover.surface)), closed_(closed(topology_, cover.points)), cover_(closed_),
+          plan_(plan), scheme_(scheme)
+    {
+    }
 
     static constexpr double guard = 0.02; // the source moves along with the mark, and the strips with it
 
-    [[nodiscard]] StripFrame find(const Points& points) const
-    {
-        return strip_frame({points, cover_.triangles}, plan_.directions);
-    }
+    [[nodiscard]] StripFrame find(const Points& points) const { return found(topology_, points, plan_); }
 
     [[nodiscard]] Carriers read(const Points& points, const StripFrame& frame) const
     {
-        return read_strips({points, cover_.triangles}, cover_.around, frame, plan_.trim, plan_.options.bits,
-                           plan_.options.statistic)
+        return read_strips(closed(topology_, points), cover_.around, topology_.sites, frame, plan_.trim,
+                           plan_.options.bits, plan_.options.statistic)
             .carriers;
     }
 
     [[nodiscard]] StripFrame on_cover(const Points& points, StripFrame frame) const
     {
-        const Surface marked{points, cover_.triangles};
-        frame.farthest = strips_from(frame, marked, cover_.around, plan_.trim, plan_.options.bits).farthest;
+        const Surface marked = closed(topology_, points);
+        frame.farthest =
+            strips_from(frame, marked, cover_.around, topology_.sites, plan_.trim, plan_.options.bits).farthest;
         frame.source = carried_along(frame.source, marked, cover_.points);
         return frame;
     }
@@ -72,7 +81,7 @@ public:
     void aim(const StripFrame& frame)
     {
         frame_ = frame;
-        strips_ = strips_from(frame, cover_.surface, cover_.around, plan_.trim, plan_.options.bits);
+        strips_ = strips_from(frame, closed_, cover_.around, topology_.sites, plan_.trim, plan_.options.bits);
     }
 
     [[nodiscard]] Carriers cut(int count) const { return recut(strips_, plan_.trim, count); }
@@ -95,6 +104,7 @@ public:
                         1e-4 * strips_.carriers.width, front);
         Proposal proposal;
         proposal.points = std::move(placed.points);
+        proposal.points.resize(topology_.sites);
         proposal.guarded_vertices = placed.counts.unconverged;
         proposal.moves = placed.counts;
         return proposal;
@@ -103,7 +113,9 @@ public:
     [[nodiscard]] std::vector<std::string> warnings() const { return warnings_of(frame_, strips_); }
 
 private:
-    const Cover& cover_;
+    SolidTopology topology_;
+    Surface closed_;
+    Cover cover_; ///< the closed surface
     const Plan& plan_;
     FrontScheme scheme_;
     StripFrame frame_;
@@ -126,14 +138,17 @@ Plan plan_geodesic(const Key& key, const CarrierOptions& options)
 
 MarkFrame find_geodesic(const Surface& surface, const Plan& plan)
 {
-    return strip_frame(surface, plan.directions);
+    return found(solid_topology(surface), surface.points, plan);
 }
 
 Readings read_geodesic(const Surface& surface, const Plan& plan, const MarkFrame& frame)
 {
-    const VertexFaces around = vertex_faces(static_cast<int>(surface.points.size()), surface.triangles);
+    const SolidTopology topology = solid_topology(surface);
+    const Surface body = closed(topology, surface.points);
+    const VertexFaces around = vertex_faces(topology.points(), topology.triangles);
     const StripFrame& strip_frame = std::get<StripFrame>(frame);
-    Strips strips = read_strips(surface, around, strip_frame, plan.trim, plan.options.bits, plan.options.statistic);
+    Strips strips =
+        read_strips(body, around, topology.sites, strip_frame, plan.trim, plan.options.bits, plan.options.statistic);
     Readings readings = read_carriers(std::move(strips.carriers), plan);
     readings.smoothing_rounds = strips.smoothing_rounds;
     readings.warnings = warnings_of(strip_frame, strips);

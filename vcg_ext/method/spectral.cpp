@@ -76,22 +76,24 @@ Frame turned_like(Frame frame, const Frame& like)
     return frame;
 }
 
-Frame checked_frame(const Surface& surface)
+Frame checked_frame(const Points& vertices, const SolidTopology& topology)
 {
-    Frame frame = principal_frame(surface);
+    Frame frame = principal_frame(solid_points(topology, vertices), topology);
     if (frame.measure == 0)
         throw Error("No face of the mesh has an area. Check its coordinates, or reconstruct the surface.");
     return frame;
 }
 
-PatchReading read_with(const Surface& surface, const EdgeGraph& graph, const Plan& plan, const Frame& frame)
+PatchReading read_with(const Surface& surface, const SolidTopology& topology, const EdgeGraph& graph, const Plan& plan,
+                       const Frame& frame)
 {
     const int count = static_cast<int>(plan.order.size());
     const bool as_printed = plan.options.as_printed;
     PatchReading reading;
     reading.frame = frame;
-    reading.patches = as_printed ? thesis_patches(surface, frame, layers, count, plan.trim)
-                                 : equal_area_patches(surface, graph, frame, layers, count / layers, plan.trim);
+    reading.patches =
+        as_printed ? thesis_patches(surface, frame, layers, count, plan.trim)
+                   : equal_area_patches(surface.points, topology, graph, frame, layers, count / layers, plan.trim);
     reading.vertices = patch_vertices(reading.patches);
     const Points local = about(frame.centre, surface.points);
     reading.band = as_printed ? exact_bands(graph, local, reading.vertices) : filtered(graph, local);
@@ -106,7 +108,7 @@ PatchReading read_with(const Surface& surface, const EdgeGraph& graph, const Pla
 
 PatchReading read_patches(const Surface& surface, const Plan& plan, const Frame& frame)
 {
-    return read_with(surface, edge_graph(surface), plan, frame);
+    return read_with(surface, solid_topology(surface), edge_graph(surface), plan, frame);
 }
 
 std::vector<int> carrying_patches(const PatchReading& reading, const Plan& plan, AxisFlips flips)
@@ -268,7 +270,7 @@ Plan plan_spectral(const Key& key, const CarrierOptions& options)
 
 MarkFrame find_spectral(const Surface& surface, const Plan& /*plan*/)
 {
-    return checked_frame(surface);
+    return checked_frame(surface.points, solid_topology(surface));
 }
 
 Marking embed_spectral(const Cover& cover, const Plan& plan, const Bits& coded, const PlacementOptions& options,
@@ -276,9 +278,10 @@ Marking embed_spectral(const Cover& cover, const Plan& plan, const Bits& coded, 
 {
     const Surface& surface = cover.surface;
     const EdgeGraph graph = edge_graph(surface);
+    const SolidTopology topology = solid_topology(surface);
     const Points normals = vertex_normals(surface.points, surface.triangles);
     const Aim aim{options.strength, plan.options.as_printed ? 1 : 1.1, least_energy(surface)};
-    PatchReading reading = read_with(surface, graph, plan, checked_frame(surface));
+    PatchReading reading = read_with(surface, topology, graph, plan, checked_frame(surface.points, topology));
     const Frame first = reading.frame;
     const auto wanted = [&] { return bits_of_patches(reading, plan, coded); };
     check_patches(reading, wanted(), coded.size());
@@ -301,7 +304,7 @@ Marking embed_spectral(const Cover& cover, const Plan& plan, const Bits& coded, 
     };
     const auto read = [&](const Points& stored, int) {
         const Surface marked{stored, surface.triangles};
-        reading = read_with(marked, graph, plan, turned_like(checked_frame(marked), first));
+        reading = read_with(marked, topology, graph, plan, turned_like(checked_frame(stored, topology), first));
         return margins_of(reading, wanted(), aim);
     };
     LoopResult loop = closed_loop(options.max_rounds, rounded_to_float, propose, read, "Shaping patches", progress);

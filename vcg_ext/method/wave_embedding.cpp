@@ -67,7 +67,6 @@ WaveEmbedding embed_waves(const Cover& cover, const WavePlan& plan, const Bits& 
     const WaveField field(body, plan);
     const Points directions = offset_directions(body);
     const int vertices = static_cast<int>(cover.points.size());
-    const auto site = [&](int v) { return body.topology.site_of_vertex.empty() ? v : body.topology.site_of_vertex[v]; };
 
     std::vector<double> offset(body.topology.sites, 0); // canonical
     std::vector<double> best_offset;
@@ -75,7 +74,7 @@ WaveEmbedding embed_waves(const Cover& cover, const WavePlan& plan, const Bits& 
     const auto place = [&](const std::vector<double>& s) {
         Points placed(vertices);
         const auto at = [&](int v, double part) -> Point {
-            return cover.points[v] + part * body.radius * s[site(v)] * (body.frame.axes * directions[site(v)]);
+            return cover.points[v] + part * body.radius * s[v] * (body.frame.axes * directions[v]);
         };
         for_each_index(vertices, [&](int v) { placed[v] = at(v, 1); });
         constexpr int steps = 4;

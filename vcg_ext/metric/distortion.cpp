@@ -4,6 +4,7 @@
 #include "../base/check.h"
 #include "../base/parallel.h"
 #include "../base/weld.h"
+#include "../geometry/boundary.h"
 #include "../geometry/closest.h"
 #include "../geometry/moments.h"
 #include "../geometry/size.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "detect.h"
 
-#include "../base/check.h"
 #include "../base/stopwatch.h"
 #include "../base/text.h"
+#include "../geometry/body.h"
 #include "../method/methods.h"
 #include "../payload/binomial.h"
 #include "../payload/code.h"
@@ -239,7 +239,7 @@ DetectReport detect(const Surface& surface, const Key& key, const DetectOptions&
     options.carriers.check();
     Stopwatch watch;
     report(progress, 0, "Finding carriers");
-    const Welded welded = checked_weld(surface);
+    const Body body = body_of(surface);
     const bool asked = !options.expected.empty();
     const std::vector<Count> counts = counts_to_try(options);
     if (std::none_of(counts.begin(), counts.end(),
@@ -255,7 +255,7 @@ DetectReport detect(const Surface& surface, const Key& key, const DetectOptions&
         report(progress, 10 + 80 * static_cast<int>(i) / static_cast<int>(counts.size()), "Reading");
         if (!one_fits(options.expected, counts[i].carriers))
             continue;
-        Trial trial = try_count(welded.surface, key, options, counts[i], frames);
+        Trial trial = try_count(body.surface, key, options, counts[i], frames);
         log10_any = std::min(log10_any, trial.log10_p(false));
         if (asked)
             log10_expected = std::min(log10_expected, trial.log10_p(true));
@@ -309,12 +309,20 @@ DetectReport detect(const Surface& surface, const Key& key, const DetectOptions&
     }
     result.smoothing_rounds = layer.readings.smoothing_rounds;
     result.orientation = way.orientation;
-    result.carrier_of_vertex = carrier_of_vertex(layer.readings, way, welded.site_of_vertex);
+    result.carrier_of_vertex = carrier_of_vertex(layer.readings, way, body.site_of_vertex);
     for (const LayerReading& other : best->layers)
         if (result.carrier_of_vertex.empty())
             result.carrier_of_vertex =
-                carrier_of_vertex(other.readings, other.readings.ways[other.readings.blind], welded.site_of_vertex);
+                carrier_of_vertex(other.readings, other.readings.ways[other.readings.blind], body.site_of_vertex);
+    result.pieces = body.pieces;
+    result.loose_pieces = body.loose_pieces;
     result.warnings = best->warnings;
+    if (const std::string loose = about_loose_pieces(body); !loose.empty())
+        result.warnings.push_back(loose);
+    if (const int parts = body.pieces - body.loose_pieces; parts > 1 && result.finding != Verdict::Present)
+        result.warnings.push_back("The mesh is " + std::to_string(parts) +
+                                  " separate pieces, read as one body. Where some were added or taken away, split it "
+                                  "into its connected components and look into each.");
     result.seconds["detection"] = watch.lap();
     report(progress, 100, "Done");
     return result;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "embed.h"
 
-#include "../base/check.h"
 #include "../base/stopwatch.h"
 #include "../base/text.h"
+#include "../geometry/body.h"
+#include "../geometry/size.h"
+#include "../geometry/solid.h"
 #include "../method/methods.h"
 #include "../metric/bend.h"
 #include "../metric/displacement.h"
@@ -12,6 +14,7 @@
 #include "secrets.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <optional>
 
@@ -138,6 +141,24 @@ std::string recipe_of(const EmbedOptions& options)
     return recipe + ".";
 }
 
+/// What a surface that is not one closed piece means for its mark.
+void warn_of_shape(const Body& body, EmbedReport& result)
+{
+    if (const std::string loose = about_loose_pieces(body); !loose.empty())
+        result.warnings.push_back(loose);
+    if (const int parts = body.pieces - body.loose_pieces; parts > 1)
+        result.warnings.push_back("The mesh is " + std::to_string(parts) +
+                                  " separate pieces, marked as one body: taking some of them away loses the mark.");
+    const SolidTopology topology = solid_topology(body.surface);
+    if (topology.apexes == 0)
+        return;
+    const Surface closed{solid_points(topology, body.surface.points), topology.triangles};
+    const double holes = 1 - surface_area(body.surface) / surface_area(closed);
+    if (holes > 0.01)
+        result.warnings.push_back("The mesh is open: its holes would take " + text(std::round(100 * holes)) +
+                                  " % of its surface. Filling them later keeps the mark, cutting more away does not.");
+}
+
 void warn(const EmbedOptions& options, EmbedReport& result)
 {
     if (options.message.kind != Kind::Bits && clean_log_p(options.message, options.carriers.bits) > -6)
@@ -159,7 +180,7 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     const EmbedOptions options = completed(wanted);
     report(progress, 0, "Finding carriers");
     Stopwatch watch;
-    const Welded welded = checked_weld(surface);
+    const Body body = body_of(surface);
     EmbedReport result;
     result.method = options.carriers.method;
     result.statistic = options.carriers.statistic;
@@ -167,13 +188,23 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     result.bits = encode(options.message, options.carriers.bits);
     result.strength = options.placement.strength;
     result.carriers = options.carriers.bits;
-    const Cover cover(welded.surface);
-    const auto as_stored = [&](const Points& placed) {
-        return options.placement.storage == Storage::Float ? rounded_to_float(placed) : placed;
+    result.pieces = body.pieces;
+    result.loose_pieces = body.loose_pieces;
+    const Cover cover(body.surface);
+    const bool floats = options.placement.storage == Storage::Float;
+    const auto as_stored = [&](const Points& placed) -> Surface {
+        Points points = with_sites_at(body, surface.points, placed);
+        if (floats) {
+            const Points rounded = rounded_to_float(points);
+            for (std::size_t v = 0; v < points.size(); ++v)
+                if (body.site_of_vertex[v] >= 0)
+                    points[v] = rounded[v];
+        }
+        return {std::move(points), surface.triangles};
     };
     const auto check = [&](const Points& placed) {
         result.seconds["placement"] += watch.lap();
-        const Surface marked{unweld(surface.points, welded.site_of_vertex, as_stored(placed)), surface.triangles};
+        const Surface marked = as_stored(placed);
         const std::size_t warnings = result.warnings.size();
         result.detection_ratio = self_check(marked, key, options, result, progress);
         if (result.detection_ratio < 1)
@@ -181,19 +212,22 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
         result.seconds["check"] += watch.lap();
         return result.detection_ratio;
     };
-    const Points stored = as_stored(put_on(cover, key, options, result.bits, result, check, progress));
-    Surface marked{unweld(surface.points, welded.site_of_vertex, stored), surface.triangles};
+    Points stored = put_on(cover, key, options, result.bits, result, check, progress);
+    Surface marked = as_stored(stored);
+    if (floats)
+        stored = rounded_to_float(stored);
 
     report(progress, 95, "Measuring");
     result.moved_vertices = moved_count(surface.points, marked.points);
     result.max_displacement = max_displacement(surface.points, marked.points);
-    result.mrms = local_mrms(welded.surface.points, stored, welded.surface.triangles, cover.around);
-    result.diagonal = bounding_diagonal(welded.surface);
+    result.mrms = local_mrms(cover.points, stored, cover.triangles, cover.around);
+    result.diagonal = bounding_diagonal(body.surface);
     result.mrms_relative = result.mrms / result.diagonal;
     if (row_of(result.method).is_smooth)
-        result.plane_bend = largest_bend(cover.normals, stored, welded.surface.triangles, cover.around);
+        result.plane_bend = largest_bend(cover.normals, stored, cover.triangles, cover.around);
     result.recipe = recipe_of(options);
     warn(options, result);
+    warn_of_shape(body, result);
     result.seconds["measure"] = watch.lap();
     report(progress, 100, "Done");
     surface.points = std::move(marked.points);

@@ -22,6 +22,8 @@ struct EmbedReport {
     int samples_min = 0;        ///< vertices in the poorest carrier; 0 where carriers are no sets of vertices
     int capacity = 0;           ///< see Marking
     double detection_ratio = 0; ///< of the blind self-check: 1, or embed() throws
+    int pieces = 1;             ///< connected parts of the mesh, see Body
+    int loose_pieces = 0;       ///< of them passed over
     int rounds = 0;
     int moved_vertices = 0;
     int guarded_vertices = 0;    ///< see Proposal
@@ -66,6 +68,8 @@ struct DetectReport {
     /// log-likelihood ratios of both layers.
     std::vector<double> soft;
     std::vector<int> samples;              ///< per carrier: vertices in it; empty where carriers are no sets of those
+    int pieces = 1;                        ///< connected parts of the mesh, see Body
+    int loose_pieces = 0;                  ///< of them passed over
     std::optional<double> detection_ratio; ///< carriers that match those of the expected message, over all
     /// With an expected message: a true upper bound of the probability that a mesh without a mark of this key, or
     /// marked with another, matches as well by chance. Of a list: that any of its messages does.

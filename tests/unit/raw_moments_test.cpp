@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/shapes.h"
-#include "vcg_ext/geometry/solid_moments.h"
+#include "vcg_ext/geometry/raw_moments.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -34,15 +34,15 @@ double exact(const Point& origin, std::array<int, 3> powers)
     return product;
 }
 
-TEST(SolidMoments, OfABoxAreProductsOfPowers)
+TEST(RawMoments, OfABoxAreProductsOfPowers)
 {
     const Surface surface = cut_box();
     const Point origin(0.3, -0.7, 1.1);
-    const SolidMoments m = solid_moments(surface.points, surface.triangles, origin);
+    const RawMoments m = raw_moments(Of::Solid, surface.points, surface.triangles, origin);
     const auto near = [&](double value, std::array<int, 3> powers) {
         EXPECT_NEAR(value, exact(origin, powers), 1e-12 * std::abs(exact(origin, {2, 2, 2})));
     };
-    near(m.volume, {0, 0, 0});
+    near(m.measure, {0, 0, 0});
     for (int i = 0; i < 3; ++i) {
         std::array<int, 3> one{};
         ++one[i];
