@@ -277,6 +277,14 @@ SolidTopology solid_topology(const Surface& surface)
     return result;
 }
 
+Surface sewn_surface(const SolidTopology& topology, const Points& vertices)
+{
+    Surface surface{solid_points(topology, vertices), topology.triangles};
+    surface.points.resize(topology.sites);
+    surface.triangles.resize(topology.surface_triangles);
+    return surface;
+}
+
 Points solid_points(const SolidTopology& topology, const Points& vertices)
 {
     Points points;

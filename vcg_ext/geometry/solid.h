@@ -31,6 +31,9 @@ struct SolidTopology {
 /// fan's edges by length.
 [[nodiscard]] Points solid_points(const SolidTopology& topology, const Points& vertices);
 
+/// The surface without fans, as sewn and oriented, over its sites.
+[[nodiscard]] Surface sewn_surface(const SolidTopology& topology, const Points& vertices);
+
 /// Puts the apexes where the sites are now. \pre `points` holds sites and apexes
 void place_apexes(const SolidTopology& topology, Points& points);
 
