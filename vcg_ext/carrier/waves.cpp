@@ -231,18 +231,25 @@ WaveGrid make_grid()
 
 } // namespace
 
+Points wave_vectors(Stream& draws, int count)
+{
+    Points vectors;
+    while (static_cast<int>(vectors.size()) < count) {
+        Point q;
+        for (double& x : q)
+            x = longest_wave * (2 * uniform(draws) - 1);
+        const double squared = q.squaredNorm();
+        if (squared >= shortest_wave * shortest_wave && squared <= longest_wave * longest_wave)
+            vectors.push_back(q);
+    }
+    return vectors;
+}
+
 WavePlan wave_plan(const Key& key, int count)
 {
     WavePlan plan;
     Stream vectors = key.stream("wave-vectors");
-    while (plan.count() < count) {
-        Point q;
-        for (double& x : q)
-            x = longest_wave * (2 * uniform(vectors) - 1);
-        const double squared = q.squaredNorm();
-        if (squared >= shortest_wave * shortest_wave && squared <= longest_wave * longest_wave)
-            plan.vectors.push_back(q);
-    }
+    plan.vectors = wave_vectors(vectors, count);
     Stream phases = key.stream("wave-phases");
     Stream dithers = key.stream("wave-dithers");
     for (int k = 0; k < count; ++k) {

@@ -24,6 +24,9 @@ struct WavePlan {
 
 [[nodiscard]] WavePlan wave_plan(const Key& key, int count);
 
+/// Wave vectors, uniform in the shell. \param draws three numbers a trial, until there are enough
+[[nodiscard]] Points wave_vectors(Stream& draws, int count);
+
 /// The step D in which a displacement of `strength` (RMS over the diagonal) is to be expected, on a ladder of sqrt 2:
 /// D = strength sqrt(12) A r^-3 diagonal / (4 pi) / sqrt(2 K). A wave of amplitude a over the whole surface A changes
 /// its own m by a A / (8 pi r^3) in canonical units, targets are uniform within half a step, and K waves add up.
