@@ -26,6 +26,21 @@ Json to_json(const vcg_ext::LayerReport& layer)
     return json;
 }
 
+Json to_json(const vcg_ext::RegistrationReport& registration)
+{
+    std::vector<double> pose; // row by row
+    for (int i = 0; i < 16; ++i)
+        pose.push_back(registration.pose(i / 4, i % 4));
+    return {{"found", registration.found},
+            {"scale", registration.scale},
+            {"mirrored", registration.mirrored},
+            {"stretch", registration.stretch},
+            {"overlap", registration.overlap},
+            {"residual", registration.residual},
+            {"by", registration.by},
+            {"pose", pose}};
+}
+
 /// What the mark does to the surface, in the mesh's own unit.
 std::string change(const vcg_ext::EmbedReport& report)
 {
@@ -109,6 +124,8 @@ Json to_json(const vcg_ext::DetectReport& report)
     add("smoothing_rounds", report.smoothing_rounds);
     if (!report.orientation.empty())
         json["orientation"] = report.orientation;
+    if (report.registration)
+        json["registration"] = to_json(*report.registration);
     json["layers"] = Json::array();
     for (const vcg_ext::LayerReport& layer : report.layers)
         json["layers"].push_back(to_json(layer));
@@ -184,10 +201,20 @@ QString layer_line(const Json& layer)
 std::map<std::string, HostValue> to_values(const Json& results)
 {
     std::map<std::string, HostValue> values;
+    const auto add = [&values](const std::string& name, const Json& value) {
+        if (value.is_boolean())
+            values[name] = value.get<bool>();
+        else if (value.is_number_integer())
+            values[name] = value.get<int>();
+        else if (value.is_number())
+            values[name] = value.get<double>();
+        else if (is_vector(value))
+            values[name] = value.get<std::vector<double>>();
+    };
     for (const auto& [name, value] : results.items()) {
         if (value.is_object()) {
             for (const auto& [part, number] : value.items())
-                values[std::string(name).append("_").append(part)] = number.get<double>();
+                add(std::string(name).append("_").append(part), number);
         } else if (name == "warnings") {
             values[name] = int(value.size());
         } else if (name == "finding") {
@@ -197,14 +224,8 @@ std::map<std::string, HostValue> to_values(const Json& results)
             for (const char digit : value.get_ref<const std::string&>())
                 bits.push_back(digit - '0');
             values[name] = bits;
-        } else if (value.is_boolean()) {
-            values[name] = value.get<bool>();
-        } else if (value.is_number_integer()) {
-            values[name] = value.get<int>();
-        } else if (value.is_number()) {
-            values[name] = value.get<double>();
-        } else if (is_vector(value)) {
-            values[name] = value.get<std::vector<double>>();
+        } else {
+            add(name, value);
         }
     }
     return values;
