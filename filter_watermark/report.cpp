@@ -41,6 +41,17 @@ Json to_json(const vcg_ext::RegistrationReport& registration)
             {"pose", pose}};
 }
 
+Json to_json(const vcg_ext::PartReport& part)
+{
+    Json json = {{"vertices", part.vertices}, {"area_share", part.area_share}};
+    if (part.p_value)
+        json["p_value"] = *part.p_value;
+    json["p_message"] = part.p_message;
+    json["registration"] = to_json(part.registration);
+    json["verdict"] = part.verdict;
+    return json;
+}
+
 /// What the mark does to the surface, in the mesh's own unit.
 std::string change(const vcg_ext::EmbedReport& report)
 {
@@ -126,6 +137,8 @@ Json to_json(const vcg_ext::DetectReport& report)
         json["orientation"] = report.orientation;
     if (report.registration)
         json["registration"] = to_json(*report.registration);
+    for (const vcg_ext::PartReport& part : report.parts)
+        json["parts"].push_back(to_json(part));
     json["layers"] = Json::array();
     for (const vcg_ext::LayerReport& layer : report.layers)
         json["layers"].push_back(to_json(layer));
@@ -243,6 +256,10 @@ QStringList to_lines(const Json& results)
         } else if (name == "layers") {
             for (const Json& layer : value)
                 lines += "layer " + layer_line(layer);
+        } else if (name == "parts") {
+            for (const Json& part : value)
+                lines +=
+                    QString("part of %1 vertices: %2").arg(part["vertices"].get<int>()).arg(to_line(part["verdict"]));
         } else {
             lines += QString("%1: %2").arg(name.c_str(), to_line(value));
         }

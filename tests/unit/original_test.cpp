@@ -119,6 +119,50 @@ TEST(WithOriginal, ReadsNormsInTheOriginalsFrame)
     EXPECT_GT(*found.detection_ratio, 0.9);
 }
 
+/// What a piece of the mesh still says under its own frame, and in the original's.
+void expect_read_from_a_piece(Method method)
+{
+    const Surface original = load("bunny00.off");
+    Surface suspect = marked(original, method);
+    attack(suspect, Attack::Crop, 0.3);
+    DetectOptions options = asking(method);
+    options.carriers.bits = 64;
+    EXPECT_GT(*detect(suspect, key(), options).p_value, 1e-3) << name(method);
+    EXPECT_LT(*detect_with_original(suspect, original, key(), options).p_value, 1e-6) << name(method);
+    EXPECT_GT(*detect_with_original(suspect, original, Key("another"), options).p_value, 1e-3) << name(method);
+}
+
+TEST(WithOriginal, ReadsStripsOfAPiece)
+{
+    expect_read_from_a_piece(Method::Geodesic);
+}
+
+TEST(WithOriginal, ReadsPatchesOfAPiece)
+{
+    expect_read_from_a_piece(Method::Spectral);
+}
+
+TEST(WithOriginal, FindsThePartThatIsACopy)
+{
+    Surface plate = load("pig.off");
+    const double size = bounding_diagonal(fandisk()) / bounding_diagonal(plate);
+    for (Point& p : plate.points)
+        p = size * p + Point(2 * bounding_diagonal(fandisk()), 0, 0);
+    const Surface copy = shapes::moved(marked_fandisk(), 1, 0.7, Point(1, 1, 0), Point(0, 1, 0));
+    const int before = static_cast<int>(plate.points.size());
+    plate.points.insert(plate.points.end(), copy.points.begin(), copy.points.end());
+    for (const Triangle& t : copy.triangles)
+        plate.triangles.push_back({t[0] + before, t[1] + before, t[2] + before});
+    const DetectReport found = detect_with_original(plate, fandisk(), key(), asking(Method::Waves));
+    EXPECT_EQ(found.finding, Verdict::Present) << found.verdict;
+    EXPECT_EQ(found.verdict.substr(0, 5), "part ");
+    ASSERT_GE(found.parts.size(), 2U);
+    int copies = 0;
+    for (const PartReport& part : found.parts)
+        copies += part.registration.found;
+    EXPECT_EQ(copies, 1);
+}
+
 TEST(WithOriginal, RefusesAnOriginalThatIsMarked)
 {
     Surface suspect = fandisk();

@@ -261,6 +261,19 @@ void Registrar::refine(const Surface& surface, Registration& registration) const
     registration.inside_out = side_of(original_, samples, feet, registration.affine) < 0;
 }
 
+double Registrar::follow(const Surface& surface, Registration& registration) const
+{
+    const SurfaceSamples samples = sample_surface(surface, samples_to_judge, "following");
+    const IcpOptions options{8, true, 0.06 * size_, 0.03 * size_, 0.2};
+    Eigen::Affine3d affine = registration.affine;
+    refine_pose(original_, samples, samples_to_judge, options, affine);
+    if (is_near(affine, registration.pose))
+        registration.affine = affine;
+    registration.residual =
+        spread_of(original_, samples, registration.affine, far * size_) / bounding_diagonal(original_.surface());
+    return registration.residual;
+}
+
 Registration Registrar::operator()(const Surface& surface, const Progress& progress) const
 {
     const SurfaceSamples samples = sample_surface(surface, samples_to_refine, "registration");

@@ -34,6 +34,8 @@ class Registrar {
 public:
     /// \param original must outlive it
     explicit Registrar(const FootSearch& original);
+    /// \param size what size() shall be: of a surface like another
+    Registrar(const FootSearch& original, double size) : original_(original), size_(size) {}
 
     /// Tries in this order, until one fits: the surface as it lies; principal axes of solid and of surface, each with
     /// all signs; the same against the original after 10 and 50 rounds of smoothing; local shapes (features.h).
@@ -49,6 +51,10 @@ public:
 
     /// Refines a pose that is near already.
     void refine(const Surface& surface, Registration& registration) const;
+
+    /// The same by fewer samples and in fewer steps, with twelve unknowns only: to compare originals that differ little.
+    /// \return Registration::residual
+    double follow(const Surface& surface, Registration& registration) const;
 
     [[nodiscard]] const FootSearch& original() const { return original_; }
     /// Radius of the ball of the original's volume, or of its area where it bounds nothing.

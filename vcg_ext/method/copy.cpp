@@ -25,4 +25,15 @@ Surface laid_on_original(const Copy& copy)
     return laid;
 }
 
+std::vector<Foot> feet_on_original(const Copy& copy, const Surface& laid)
+{
+    constexpr double reach = 0.1; // of the original's size
+    std::vector<Foot> feet(laid.points.size());
+    for_chunks(static_cast<int>(feet.size()), 512, [&](int begin, int end) {
+        for (int v = begin; v < end; ++v)
+            feet[v] = copy.registrar.original()(laid.points[v], reach * copy.registrar.size());
+    });
+    return feet;
+}
+
 } // namespace vcg_ext

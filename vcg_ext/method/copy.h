@@ -12,6 +12,9 @@ struct Copy {
     Registration registration;
 };
 
+/// Where its vertices stand on the original, laid on it: no feet where that is missing.
+[[nodiscard]] std::vector<Foot> feet_on_original(const Copy& copy, const Surface& laid);
+
 /// The copy laid on its original: in the original's place, at its size, its faces looking the same way.
 [[nodiscard]] Surface laid_on_original(const Copy& copy);
 

@@ -140,6 +140,29 @@ Readings read_geodesic(const Surface& surface, const Plan& plan, const MarkFrame
     return readings;
 }
 
+MarkFrame find_geodesic_copy(const Copy& copy, const Plan& plan)
+{
+    return strip_frame(copy.registrar.original().surface(), plan.directions);
+}
+
+Readings read_geodesic_copy(const Copy& copy, const Plan& plan, const MarkFrame& frame)
+{
+    const Surface& original = copy.registrar.original().surface();
+    const VertexFaces around = vertex_faces(static_cast<int>(original.points.size()), original.triangles);
+    const Strips strips = strips_from(std::get<StripFrame>(frame), original, around, plan.trim, plan.options.bits);
+    std::vector<double> distances;
+    for (const Foot& foot : feet_on_original(copy, laid_on_original(copy))) {
+        double distance = -1;
+        if (foot.face >= 0 && !foot.on_rim) {
+            distance = 0;
+            for (int k = 0; k < 3; ++k)
+                distance += foot.weights[k] * strips.arrivals[original.triangles[foot.face][k]].distance;
+        }
+        distances.push_back(distance);
+    }
+    return read_carriers(cut_range(distances, 0, strips.farthest, plan.trim, plan.options.bits), plan);
+}
+
 Marking embed_geodesic(const Cover& cover, const Plan& plan, const Bits& coded, const PlacementOptions& options,
                        const Progress& progress)
 {

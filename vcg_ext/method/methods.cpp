@@ -112,8 +112,8 @@ const std::vector<MethodRow>& all_methods()
          plan_geodesic,
          find_geodesic,
          read_geodesic,
-         nullptr,
-         nullptr,
+         find_geodesic_copy,
+         read_geodesic_copy,
          embed_geodesic},
         {Method::Spectral,
          "Spectral",
@@ -126,8 +126,8 @@ const std::vector<MethodRow>& all_methods()
          plan_spectral,
          find_spectral,
          read_spectral,
-         nullptr,
-         nullptr,
+         find_spectral_copy,
+         read_spectral_copy,
          embed_spectral},
     };
     return methods;

@@ -169,10 +169,10 @@ WaveCopy::WaveCopy(const Copy& copy)
         if (found != trials.end())
             return found->second.registration.residual;
         Trial trial{copy.registration, nullptr};
-        if (rounds > 0) {
+        if (rounds > 0)
             trial.feet = std::make_shared<FootSearch>(in_mesh(body_, sewn, smoothed(rounds)));
-            Registrar(*trial.feet).refine(copy.surface, trial.registration);
-        }
+        const FootSearch& feet = rounds > 0 ? *trial.feet : copy.registrar.original();
+        Registrar(feet, copy.registrar.size()).follow(copy.surface, trial.registration);
         return (trials[rounds] = std::move(trial)).registration.residual;
     };
     const int rounds = best_rounds(residual);
@@ -186,6 +186,7 @@ WaveCopy::WaveCopy(const Copy& copy)
     worn.rounds = rounds;
     worn.weight = 0.75;
     worn.registration = trials[rounds].registration;
+    Registrar(*trials[rounds].feet, copy.registrar.size()).refine(copy.surface, worn.registration);
     plain.weight = 1 - worn.weight;
     look(copy, *trials[rounds].feet, std::move(worn));
     look(copy, copy.registrar.original(), std::move(plain));

@@ -227,13 +227,15 @@ const char* name(Verdict verdict)
     return names[static_cast<int>(verdict)];
 }
 
-DetectReport detect_by(const LayerReader& read, const std::vector<int>& site_of_vertex, const Key& key,
+DetectReport detect_by(const LayerReader& read, const std::vector<int>& site_of_vertex, double share, const Key& key,
                        const DetectOptions& options, const Progress& progress)
 {
     options.carriers.check();
     Stopwatch watch;
     const bool asked = !options.expected.empty();
-    const std::vector<Count> counts = counts_to_try(options);
+    std::vector<Count> counts = counts_to_try(options);
+    for (Count& count : counts)
+        count.weight *= share;
     if (std::none_of(counts.begin(), counts.end(),
                      [&](const Count& count) { return one_fits(options.expected, count.carriers); }))
         throw Error("The expected message does not fit: " + need(options.expected.front()) + ", but Bits is " +
@@ -323,7 +325,7 @@ DetectReport detect(const Surface& surface, const Key& key, const DetectOptions&
             frames.emplace(method.method, method.find_frame(welded.surface, plan));
         return method.read(welded.surface, plan, frames.at(method.method));
     };
-    DetectReport result = detect_by(read, welded.site_of_vertex, key, options, progress);
+    DetectReport result = detect_by(read, welded.site_of_vertex, 1, key, options, progress);
     result.seconds["detection"] = watch.lap();
     return result;
 }

@@ -15,8 +15,9 @@ using LayerReader = std::function<Readings(const MethodRow& method, const Plan& 
 
 /// Reads and judges by whatever reader: numbers of carriers, layers, probabilities, the verdict.
 /// \param site_of_vertex of the surface that is read, see Welded
-[[nodiscard]] DetectReport detect_by(const LayerReader& read, const std::vector<int>& site_of_vertex, const Key& key,
-                                     const DetectOptions& options, const Progress& progress = {});
+/// \param share of all false alarms that may be this one's: probabilities are divided by it
+[[nodiscard]] DetectReport detect_by(const LayerReader& read, const std::vector<int>& site_of_vertex, double share,
+                                     const Key& key, const DetectOptions& options, const Progress& progress = {});
 
 /// Reads a message with the key alone. Same input, same answer: at any number of threads, on any machine.
 ///
