@@ -2,8 +2,6 @@
 #include <vcg_ext/base/progress.h>
 #include <vcg_ext/carrier/statistic.h>
 
-#include <QFile>
-
 #include "layer.h"
 #include "report.h"
 #include "shared_parameters.h"
@@ -18,28 +16,11 @@ constexpr const char* info =
     "Method, Statistic and Trim must be those of embedding; Bits too, unless it is 0. The mesh stays as it is; <b>Show "
     "carriers</b> gives its vertices the number of the carrier that they are in as quality, and a colour for each.";
 
-/// The messages of a file, one a line, or the one that the text says; none where it is empty.
-std::vector<vcg_ext::Message> read_expected(const RichParameterList& values)
-{
-    const std::string text = read_text(values, "Expected");
-    if (text.empty())
-        return {};
-    if (text.compare(0, 5, "file:") != 0)
-        return {vcg_ext::read_message(text)};
-    QFile file(values.getString("Expected").mid(5));
-    if (!file.open(QIODevice::ReadOnly))
-        throw vcg_ext::Error("The file of expected messages cannot be read: '" + file.fileName().toStdString() +
-                             "'. Name one that exists, with a message on each line.");
-    return vcg_ext::read_candidates(composed(QString::fromUtf8(file.readAll())));
-}
-
 RichParameterList parameters(const MeshDocument&)
 {
     RichParameterList list;
     add_carrier_parameters(list, "Number of carriers that the mark was embedded with, 1 to 1024; 0 finds it.");
-    list.addParam(
-        RichString("Expected", "", "Expected message",
-                   "The message to look for, as in Embed; <i>file:PATH</i>: one of its lines; or empty, to read."));
+    add_expected_parameter(list);
     list.addParam(
         RichBool("ShowCarriers", false, "Show carriers", "Colours the vertices by the carrier that they are in."));
     add_report_parameter(list);

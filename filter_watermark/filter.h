@@ -28,9 +28,10 @@ struct Filter {
 
 extern const Filter embed_filter;
 extern const Filter detect_filter;
+extern const Filter original_filter;
 extern const Filter attack_filter;
 extern const Filter measure_filter;
 
 /// All filters; a filter's place here is its id.
-inline const std::array<const Filter*, 4> all_filters = {&embed_filter, &detect_filter, &attack_filter,
-                                                         &measure_filter};
+inline const std::array<const Filter*, 5> all_filters = {&embed_filter, &detect_filter, &original_filter,
+                                                         &attack_filter, &measure_filter};

@@ -26,6 +26,32 @@ Json to_json(const vcg_ext::LayerReport& layer)
     return json;
 }
 
+Json to_json(const vcg_ext::RegistrationReport& registration)
+{
+    std::vector<double> pose; // row by row
+    for (int i = 0; i < 16; ++i)
+        pose.push_back(registration.pose(i / 4, i % 4));
+    return {{"found", registration.found},
+            {"scale", registration.scale},
+            {"mirrored", registration.mirrored},
+            {"stretch", registration.stretch},
+            {"overlap", registration.overlap},
+            {"residual", registration.residual},
+            {"by", registration.by},
+            {"pose", pose}};
+}
+
+Json to_json(const vcg_ext::PartReport& part)
+{
+    Json json = {{"vertices", part.vertices}, {"area_share", part.area_share}};
+    if (part.p_value)
+        json["p_value"] = *part.p_value;
+    json["p_message"] = part.p_message;
+    json["registration"] = to_json(part.registration);
+    json["verdict"] = part.verdict;
+    return json;
+}
+
 /// What the mark does to the surface, in the mesh's own unit.
 std::string change(const vcg_ext::EmbedReport& report)
 {
@@ -113,6 +139,10 @@ Json to_json(const vcg_ext::DetectReport& report)
     add("smoothing_rounds", report.smoothing_rounds);
     if (!report.orientation.empty())
         json["orientation"] = report.orientation;
+    if (report.registration)
+        json["registration"] = to_json(*report.registration);
+    for (const vcg_ext::PartReport& part : report.parts)
+        json["parts"].push_back(to_json(part));
     json["layers"] = Json::array();
     for (const vcg_ext::LayerReport& layer : report.layers)
         json["layers"].push_back(to_json(layer));
@@ -188,10 +218,20 @@ QString layer_line(const Json& layer)
 std::map<std::string, HostValue> to_values(const Json& results)
 {
     std::map<std::string, HostValue> values;
+    const auto add = [&values](const std::string& name, const Json& value) {
+        if (value.is_boolean())
+            values[name] = value.get<bool>();
+        else if (value.is_number_integer())
+            values[name] = value.get<int>();
+        else if (value.is_number())
+            values[name] = value.get<double>();
+        else if (is_vector(value))
+            values[name] = value.get<std::vector<double>>();
+    };
     for (const auto& [name, value] : results.items()) {
         if (value.is_object()) {
             for (const auto& [part, number] : value.items())
-                values[std::string(name).append("_").append(part)] = number.get<double>();
+                add(std::string(name).append("_").append(part), number);
         } else if (name == "warnings") {
             values[name] = int(value.size());
         } else if (name == "finding") {
@@ -201,14 +241,8 @@ std::map<std::string, HostValue> to_values(const Json& results)
             for (const char digit : value.get_ref<const std::string&>())
                 bits.push_back(digit - '0');
             values[name] = bits;
-        } else if (value.is_boolean()) {
-            values[name] = value.get<bool>();
-        } else if (value.is_number_integer()) {
-            values[name] = value.get<int>();
-        } else if (value.is_number()) {
-            values[name] = value.get<double>();
-        } else if (is_vector(value)) {
-            values[name] = value.get<std::vector<double>>();
+        } else {
+            add(name, value);
         }
     }
     return values;
@@ -226,6 +260,10 @@ QStringList to_lines(const Json& results)
         } else if (name == "layers") {
             for (const Json& layer : value)
                 lines += "layer " + layer_line(layer);
+        } else if (name == "parts") {
+            for (const Json& part : value)
+                lines +=
+                    QString("part of %1 vertices: %2").arg(part["vertices"].get<int>()).arg(to_line(part["verdict"]));
         } else {
             lines += QString("%1: %2").arg(name.c_str(), to_line(value));
         }

@@ -14,7 +14,7 @@ Json to_json(const vcg_ext::AttackReport& report);
 Json to_json(const vcg_ext::DistortionReport& report);
 
 /// The same for pymeshlab's dict, which cannot take texts: `bits` becomes a vector of 0 and 1, `warnings` their count,
-/// `seconds`, `solver` and `moves` a number for each part (`seconds_placement`). Other texts are in the log and the
+/// `seconds`, `solver`, `moves` and `registration` a value for each part (`seconds_placement`). Other texts are in the log and the
 /// report only.
 std::map<std::string, HostValue> to_values(const Json& results);
 

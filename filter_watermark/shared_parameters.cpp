@@ -3,6 +3,8 @@
 
 #include "shared_parameters.h"
 
+#include <QFile>
+
 #include <vcg_ext/method/methods.h>
 
 using vcg_ext::Method;
@@ -94,6 +96,27 @@ vcg_ext::Key read_key(const RichParameterList& values)
         ~Text() { bytes.fill('\0'); }
     } text{values.getString("Key").normalized(QString::NormalizationForm_C).toUtf8()};
     return vcg_ext::key_from_text({text.bytes.constData(), std::size_t(text.bytes.size())});
+}
+
+void add_expected_parameter(RichParameterList& list)
+{
+    list.addParam(
+        RichString("Expected", "", "Expected message",
+                   "The message to look for, as in Embed; <i>file:PATH</i>: one of its lines; or empty, to read."));
+}
+
+std::vector<vcg_ext::Message> read_expected(const RichParameterList& values)
+{
+    const std::string text = read_text(values, "Expected");
+    if (text.empty())
+        return {};
+    if (text.compare(0, 5, "file:") != 0)
+        return {vcg_ext::read_message(text)};
+    QFile file(values.getString("Expected").mid(5));
+    if (!file.open(QIODevice::ReadOnly))
+        throw vcg_ext::Error("The file of expected messages cannot be read: '" + file.fileName().toStdString() +
+                             "'. Name one that exists, with a message on each line.");
+    return vcg_ext::read_candidates(composed(QString::fromUtf8(file.readAll())));
 }
 
 void add_report_parameter(RichParameterList& list)

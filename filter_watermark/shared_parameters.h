@@ -37,6 +37,11 @@ std::string read_text(const RichParameterList& values, const QString& name);
 /// \throw vcg_ext::Error where it is empty, or names no file or variable
 vcg_ext::Key read_key(const RichParameterList& values);
 
+void add_expected_parameter(RichParameterList& list);
+
+/// The messages of a file, one a line, or the one that the text says; none where it is empty.
+std::vector<vcg_ext::Message> read_expected(const RichParameterList& values);
+
 void add_report_parameter(RichParameterList& list);
 
 /// A number as the user typed it. MeshLab 2020.09 keeps it in float, 2025.07 in double; six digits are the same in

@@ -24,6 +24,7 @@ WITHOUT_STATISTIC = ["Layered", "Waves", "Spectral"]
 
 EMBED = "Watermark: Embed"
 DETECT = "Watermark: Detect"
+DETECT_WITH_ORIGINAL = "Watermark: Detect with Original"
 
 Value = str | int | float | bool
 Report = dict[str, object]
@@ -53,6 +54,15 @@ FILTERS: dict[str, tuple[str, dict[str, tuple[str, Value]]]] = {
             **CARRIERS,
             "Expected": ("RichString", ""),
             "ShowCarriers": ("RichBool", False),
+            "Report": ("RichSaveFile", ""),
+        },
+    ),
+    DETECT_WITH_ORIGINAL: (
+        "get_watermark_with_original",
+        {
+            **CARRIERS,
+            "Original": ("RichMesh", 0),
+            "Expected": ("RichString", ""),
             "Report": ("RichSaveFile", ""),
         },
     ),
@@ -101,13 +111,17 @@ class MeshLabServer:
             check=False,
         )
 
-    def run(self, filter_name: str, mesh: Path, output: Path | None = None, **values: Value) -> Report:
-        """Opens a mesh, applies one filter, saves the mesh where `output` is given, and returns the report."""
+    def run(
+        self, filter_name: str, mesh: Path, output: Path | None = None, before: Path | None = None, **values: Value
+    ) -> Report:
+        """Opens a mesh, after the one `before` where given (layer 0), applies one filter to it, saves it where `output`
+        is given, and returns the report."""
         with tempfile.TemporaryDirectory() as folder:
             values = {"Report": f"{folder}/report.json", **values}
             Path(folder, "script.mlx").write_text(script(filter_name, values), encoding="utf-8")
             save = ["-o", output] if output else []
-            done = self.arguments("-i", mesh, "-s", f"{folder}/script.mlx", *save)
+            meshes = [before, mesh] if before else [mesh]
+            done = self.arguments("-i", *meshes, "-s", f"{folder}/script.mlx", *save)
             if done.returncode != 0:
                 raise Refused(done.stdout, done.returncode)
             return json.loads(Path(str(values["Report"])).read_text(encoding="utf-8"))
@@ -137,10 +151,14 @@ class PyMeshLab:
                 raise Refused(str(error)) from error
             return json.loads(Path(str(values["Report"])).read_text(encoding="utf-8"))
 
-    def run(self, filter_name: str, mesh: Path, output: Path | None = None, **values: Value) -> Report:
-        """Opens a mesh, applies one filter, saves the mesh where `output` is given, and returns the report."""
+    def run(
+        self, filter_name: str, mesh: Path, output: Path | None = None, before: Path | None = None, **values: Value
+    ) -> Report:
+        """Opens a mesh, after the one `before` where given (layer 0), applies one filter to it, saves it where `output`
+        is given, and returns the report."""
         meshes = pymeshlab.MeshSet()
-        meshes.load_new_mesh(str(mesh))
+        for path in [before, mesh] if before else [mesh]:
+            meshes.load_new_mesh(str(path))
         report = self.apply(meshes, filter_name, **values)
         if output:
             meshes.save_current_mesh(str(output))

@@ -21,7 +21,6 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double rungs_per_octave = 4;
-constexpr double rung_fall = 0.577; ///< of the weight, from the rung that is expected to its neighbours
 constexpr double plain_share = 0.7; ///< of the weight, for the orientation that the body itself tells
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -232,18 +231,25 @@ WaveGrid make_grid()
 
 } // namespace
 
+Points wave_vectors(Stream& draws, int count)
+{
+    Points vectors;
+    while (static_cast<int>(vectors.size()) < count) {
+        Point q;
+        for (double& x : q)
+            x = longest_wave * (2 * uniform(draws) - 1);
+        const double squared = q.squaredNorm();
+        if (squared >= shortest_wave * shortest_wave && squared <= longest_wave * longest_wave)
+            vectors.push_back(q);
+    }
+    return vectors;
+}
+
 WavePlan wave_plan(const Key& key, int count)
 {
     WavePlan plan;
     Stream vectors = key.stream("wave-vectors");
-    while (plan.count() < count) {
-        Point q;
-        for (double& x : q)
-            x = longest_wave * (2 * uniform(vectors) - 1);
-        const double squared = q.squaredNorm();
-        if (squared >= shortest_wave * shortest_wave && squared <= longest_wave * longest_wave)
-            plan.vectors.push_back(q);
-    }
+    plan.vectors = wave_vectors(vectors, count);
     Stream phases = key.stream("wave-phases");
     Stream dithers = key.stream("wave-dithers");
     for (int k = 0; k < count; ++k) {
@@ -255,13 +261,17 @@ WavePlan wave_plan(const Key& key, int count)
 
 double wave_step(const WaveBody& body, double strength, int waves, int* rung)
 {
-    constexpr double part = 0.9;
-    const double step = strength / part * std::sqrt(12.0) * body.area * (body.diagonal / body.radius) / (4 * pi) /
+    const double step = strength / usual_part * std::sqrt(12.0) * body.area * (body.diagonal / body.radius) / (4 * pi) /
                         std::sqrt(2.0 * waves);
     const int place = static_cast<int>(std::lround(rungs_per_octave * std::log2(step)));
     if (rung)
         *rung = place;
-    return std::exp2(place / rungs_per_octave);
+    return step_of_rung(place);
+}
+
+double step_of_rung(int rung)
+{
+    return std::exp2(rung / rungs_per_octave);
 }
 
 std::vector<double> wave_values_of(const std::vector<std::complex<double>>& transform,
@@ -310,7 +320,7 @@ WaveReading read_waves(WaveSpectra& spectra, const WavePlan& plan, const WaveRea
             view.orientation = way % orientations;
             view.mirrored = way >= orientations;
             view.rung = own_rung + j;
-            view.step = std::exp2(view.rung / rungs_per_octave);
+            view.step = step_of_rung(view.rung);
             const double share = ways_round == 1 ? 1 : way == 0 ? plain_share : (1 - plain_share) / (ways_round - 1);
             view.log_weight = std::log(share * std::pow(rung_fall, std::abs(j)) / rung_sum);
             const auto part = [&](const WaveSpectra::Spectrum& all) {

@@ -24,13 +24,22 @@ struct WavePlan {
 
 [[nodiscard]] WavePlan wave_plan(const Key& key, int count);
 
+/// Wave vectors, uniform in the shell. \param draws three numbers a trial, until there are enough
+[[nodiscard]] Points wave_vectors(Stream& draws, int count);
+
 /// The step D in which a displacement of `strength` (RMS over the diagonal) is to be expected if waves go nine tenths
 /// of the way to their targets, on a ladder of four rungs an octave: D = strength sqrt(12) A r^-3 diagonal / (4 pi) /
 /// sqrt(2 K) / .9. A wave of amplitude a over the whole surface A changes its own m by a A / (8 pi r^3) in canonical
 /// units, targets are uniform within half a step, and K waves add up.
 ///
-/// \param rung the result's place on the ladder: D = 2^(rung / 4)
+/// \param rung the result's place on the ladder
 [[nodiscard]] double wave_step(const WaveBody& body, double strength, int waves, int* rung = nullptr);
+
+/// 2^(rung / 4)
+[[nodiscard]] double step_of_rung(int rung);
+
+constexpr double usual_part = 0.9;  ///< of the way to their lattice that waves go, more or less
+constexpr double rung_fall = 0.577; ///< of a reader's weight, from the rung that is expected to its neighbours
 
 /// The m_k of a body's transform at its waves. \param mirrored of the body's mirror image
 [[nodiscard]] std::vector<double> wave_values_of(const std::vector<std::complex<double>>& transform,

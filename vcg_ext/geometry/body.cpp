@@ -128,9 +128,9 @@ void leave_out_loose_pieces(Body& body)
 
 } // namespace
 
-Body body_of(const Surface& surface)
+Body body_of(const Surface& surface, const char* which)
 {
-    Welded welded = checked_weld(surface);
+    Welded welded = checked_weld(surface, which);
     Body body{std::move(welded.surface), std::move(welded.site_of_vertex)};
     mend(body);
     leave_out_loose_pieces(body);

@@ -21,8 +21,8 @@ struct Body {
     int loose_pieces = 0;            ///< of them left out
 };
 
-/// \throw Error as check_surface()
-[[nodiscard]] Body body_of(const Surface& surface);
+/// \param which how an error names it  \throw Error as check_surface()
+[[nodiscard]] Body body_of(const Surface& surface, const char* which = "mesh");
 
 /// "30 of the 31 separate pieces of the mesh are below 1 % of its area, and carry nothing."; empty where none are.
 [[nodiscard]] std::string about_loose_pieces(const Body& body);

@@ -155,6 +155,31 @@ Readings read_geodesic(const Surface& surface, const Plan& plan, const MarkFrame
     return readings;
 }
 
+MarkFrame find_geodesic_copy(const Copy& copy, const Plan& plan)
+{
+    return find_geodesic(copy.original, plan);
+}
+
+Readings read_geodesic_copy(const Copy& copy, const Plan& plan, const MarkFrame& frame)
+{
+    const SolidTopology topology = solid_topology(copy.original);
+    const Surface original = closed(topology, copy.original.points);
+    const VertexFaces around = vertex_faces(topology.points(), topology.triangles);
+    const Strips strips =
+        strips_from(std::get<StripFrame>(frame), original, around, topology.sites, plan.trim, plan.options.bits);
+    std::vector<double> distances;
+    for (const Foot& foot : feet_on_original(copy, laid_on_original(copy))) {
+        double distance = -1;
+        if (foot.face >= 0 && !foot.on_rim) {
+            distance = 0;
+            for (int k = 0; k < 3; ++k)
+                distance += foot.weights[k] * strips.arrivals[original.triangles[foot.face][k]].distance;
+        }
+        distances.push_back(distance);
+    }
+    return read_carriers(cut_range(distances, 0, strips.farthest, plan.trim, plan.options.bits), plan);
+}
+
 Marking embed_geodesic(const Cover& cover, const Plan& plan, const Bits& coded, const PlacementOptions& options,
                        const Progress& progress)
 {

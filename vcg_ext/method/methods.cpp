@@ -43,6 +43,8 @@ const std::vector<MethodRow>& all_methods()
          nullptr,
          nullptr,
          nullptr,
+         nullptr,
+         nullptr,
          nullptr},
         {Method::Waves,
          "Waves",
@@ -56,6 +58,8 @@ const std::vector<MethodRow>& all_methods()
          plan_waves,
          find_waves,
          read_by_waves,
+         find_wave_copy,
+         read_wave_copy,
          embed_by_waves},
         {Method::LM,
          "L-M",
@@ -69,6 +73,8 @@ const std::vector<MethodRow>& all_methods()
          plan_norms,
          find_norms,
          read_norms,
+         nullptr,
+         nullptr,
          embed_norms<Radial::Sphere>},
         {Method::QSP,
          "QSP",
@@ -82,6 +88,8 @@ const std::vector<MethodRow>& all_methods()
          plan_norms,
          find_norms,
          read_norms,
+         nullptr,
+         nullptr,
          embed_norms<Radial::Selective>},
         {Method::Cho,
          "Cho",
@@ -95,6 +103,8 @@ const std::vector<MethodRow>& all_methods()
          plan_norms,
          find_norms,
          read_norms,
+         nullptr,
+         nullptr,
          embed_norms<Radial::Straight>},
         {Method::Geodesic,
          "Geodesic",
@@ -108,6 +118,8 @@ const std::vector<MethodRow>& all_methods()
          plan_geodesic,
          find_geodesic,
          read_geodesic,
+         find_geodesic_copy,
+         read_geodesic_copy,
          embed_geodesic},
         {Method::Spectral,
          "Spectral",
@@ -121,6 +133,8 @@ const std::vector<MethodRow>& all_methods()
          plan_spectral,
          find_spectral,
          read_spectral,
+         find_spectral_copy,
+         read_spectral_copy,
          embed_spectral},
     };
     return methods;
@@ -132,6 +146,16 @@ const MethodRow& row_of(Method method)
         if (row.method == method)
             return row;
     throw Error("There is no such method. Choose one of the list.");
+}
+
+MarkFrame find_copy(const MethodRow& method, const Copy& copy, const Plan& plan)
+{
+    return method.find_copy ? method.find_copy(copy, plan) : method.find_frame(copy.original, plan);
+}
+
+Readings read_copy(const MethodRow& method, const Copy& copy, const Plan& plan, const MarkFrame& frame)
+{
+    return method.read_copy ? method.read_copy(copy, plan, frame) : method.read(laid_on_original(copy), plan, frame);
 }
 
 const char* name(Method method)

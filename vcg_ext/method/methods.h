@@ -4,6 +4,7 @@
 #include "../carrier/reading.h"
 #include "../payload/message.h"
 #include "../placement/cover.h"
+#include "copy.h"
 #include "plan.h"
 
 #include <utility>
@@ -41,11 +42,24 @@ struct MethodRow {
     /// What the carriers say, in this frame.
     Readings (*read)(const Surface& surface, const Plan& plan, const MarkFrame& frame);
 
+    /// With the original at hand: what it and the registered copy tell before the number of carriers is known. Null: how
+    /// the original lies by itself.
+    MarkFrame (*find_copy)(const Copy& copy, const Plan& plan);
+
+    /// What the carriers of a copy say, given find_copy(). Null: what read() says of it where it is laid on the original.
+    Readings (*read_copy)(const Copy& copy, const Plan& plan, const MarkFrame& frame);
+
     /// Writes the coded bits, as many as carriers. `options.strength` is in range.
     /// \throw DoesNotFit where the mesh cannot carry them
     Marking (*embed)(const Cover& cover, const Plan& plan, const Bits& coded, const PlacementOptions& options,
                      const Progress& progress);
 };
+
+/// MethodRow::find_copy, or what stands for it.
+[[nodiscard]] MarkFrame find_copy(const MethodRow& method, const Copy& copy, const Plan& plan);
+
+/// MethodRow::read_copy, likewise.
+[[nodiscard]] Readings read_copy(const MethodRow& method, const Copy& copy, const Plan& plan, const MarkFrame& frame);
 
 /// All methods, in the order in which users choose.
 [[nodiscard]] const std::vector<MethodRow>& all_methods();

@@ -12,6 +12,8 @@
 
 namespace vcg_ext {
 
+class WaveCopy; // wave_copy.h
+
 /// What both sides agree on before they see a mesh. The secret mask of the bits is no part of it, so nothing that reads
 /// by a plan can look at it.
 struct Plan {
@@ -25,6 +27,7 @@ struct Plan {
 
 /// How a body is held, so that its carriers can be found, however many these are: by the surface itself, or by another
 /// that it was registered to. Which kind, the method says.
-using MarkFrame = std::variant<ShellFrame, StripFrame, Frame, std::shared_ptr<WaveSpectra>>;
+using MarkFrame =
+    std::variant<ShellFrame, StripFrame, Frame, std::shared_ptr<WaveSpectra>, std::shared_ptr<const WaveCopy>>;
 
 } // namespace vcg_ext

@@ -58,12 +58,15 @@ Points exact_bands(const EdgeGraph& graph, const Points& points, const std::vect
     return band;
 }
 
-double best_threshold(const std::vector<PatchShape>& shapes)
+constexpr int vertices_of_a_shape = 8; ///< at least
+
+double best_threshold(const std::vector<PatchShape>& shapes, int least_samples = 0)
 {
     std::vector<double> ratios;
     ratios.reserve(shapes.size());
     for (const PatchShape& shape : shapes)
-        ratios.push_back(std::log(shape.ratio()));
+        if (shape.samples >= least_samples)
+            ratios.push_back(std::log(shape.ratio()));
     return two_means(std::move(ratios));
 }
 
@@ -234,8 +237,6 @@ std::vector<double> margins_of(const PatchReading& reading, const std::vector<in
     return margins;
 }
 
-constexpr int vertices_of_a_shape = 8; ///< at least
-
 int poorest(const PatchReading& reading, const std::vector<int>& wanted)
 {
     int fewest = std::numeric_limits<int>::max();
@@ -333,6 +334,48 @@ Readings read_spectral(const Surface& surface, const Plan& plan, const MarkFrame
         readings.ways.push_back(std::move(reading));
     }
     readings.label_of_vertex = std::move(patches.patches.label);
+    return readings;
+}
+
+MarkFrame find_spectral_copy(const Copy& copy, const Plan& /*plan*/)
+{
+    return checked_frame(copy.original.points, solid_topology(copy.original));
+}
+
+Readings read_spectral_copy(const Copy& copy, const Plan& plan, const MarkFrame& frame)
+{
+    const Frame& axes = std::get<Frame>(frame);
+    const Surface& original = copy.original;
+    const int count = static_cast<int>(plan.order.size());
+    const Patches whole = equal_area_patches(original.points, solid_topology(original), edge_graph(original), axes,
+                                             layers, count / layers, plan.trim);
+    const Surface laid = laid_on_original(copy);
+    PatchReading reading;
+    reading.patches = {whole.layers, whole.columns, {}};
+    for (const Foot& foot : feet_on_original(copy, laid)) {
+        int nearest = 0;
+        foot.weights.maxCoeff(&nearest);
+        const bool stands = foot.face >= 0 && !foot.on_rim;
+        reading.patches.label.push_back(stands ? whole.label[original.triangles[foot.face][nearest]] : -1);
+    }
+    reading.vertices = patch_vertices(reading.patches);
+    reading.band = filtered(edge_graph(laid), about(axes.centre, laid.points));
+    for (const std::vector<int>& vertices : reading.vertices)
+        reading.shapes.push_back(patch_shape(reading.band, vertices));
+    reading.threshold = best_threshold(reading.shapes, vertices_of_a_shape);
+
+    Reading way;
+    way.label = carrying_patches(reading, plan, {false, false});
+    way.label.resize(plan.options.bits);
+    for (int& patch : way.label) {
+        way.samples.push_back(patch >= 0 ? reading.shapes[patch].samples : 0);
+        const bool held = way.samples.back() >= vertices_of_a_shape;
+        way.soft.push_back(held ? reading.soft(patch) : 0);
+        way.erased.push_back(!held);
+    }
+    Readings readings;
+    readings.ways.push_back(std::move(way));
+    readings.label_of_vertex = std::move(reading.patches.label);
     return readings;
 }
 

@@ -6,6 +6,7 @@
 #include "../payload/message.h"
 #include "../placement/cover.h"
 #include "../placement/patch_shape.h"
+#include "copy.h"
 #include "plan.h"
 
 namespace vcg_ext {
@@ -38,6 +39,10 @@ struct PatchReading {
 /// the thesis; along an axis on which the body is mirror-symmetric, and so has none, the spare patches decide: they
 /// carry 0, 1, 0, 1, ...
 [[nodiscard]] Readings read_spectral(const Surface& surface, const Plan& plan, const MarkFrame& frame);
+
+/// With the original at hand: the patches are the original's, and its axes leave no choice.
+[[nodiscard]] MarkFrame find_spectral_copy(const Copy& copy, const Plan& plan);
+[[nodiscard]] Readings read_spectral_copy(const Copy& copy, const Plan& plan, const MarkFrame& frame);
 
 /// \throw DoesNotFit where patches are too small or too few
 [[nodiscard]] Marking embed_spectral(const Cover& cover, const Plan& plan, const Bits& coded,

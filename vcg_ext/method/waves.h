@@ -4,6 +4,7 @@
 #include "../carrier/reading.h"
 #include "../payload/message.h"
 #include "../placement/cover.h"
+#include "copy.h"
 #include "plan.h"
 
 namespace vcg_ext {
@@ -15,6 +16,11 @@ namespace vcg_ext {
 
 /// Strengths from 5e-6 to 2e-3 are tried, those near the usual one with the most weight.
 [[nodiscard]] Readings read_by_waves(const Surface& surface, const Plan& plan, const MarkFrame& frame);
+
+/// With the original at hand: the field by which a copy lies off it, demodulated (carrier/demodulation.h).
+[[nodiscard]] MarkFrame find_wave_copy(const Copy& copy, const Plan& plan);
+[[nodiscard]] Readings read_wave_copy(const Copy& copy, const Plan& plan, const MarkFrame& frame);
+
 [[nodiscard]] Marking embed_by_waves(const Cover& cover, const Plan& plan, const Bits& coded,
                                      const PlacementOptions& options, const Progress& progress);
 

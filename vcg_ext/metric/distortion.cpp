@@ -7,6 +7,7 @@
 #include "../geometry/boundary.h"
 #include "../geometry/closest.h"
 #include "../geometry/moments.h"
+#include "../geometry/sampling.h"
 #include "../geometry/size.h"
 #include "../key/random.h"
 #include "../key/stream.h"
@@ -57,48 +58,6 @@ Pair make_pair_of(const Surface& reference, const Surface& measured)
     return {std::move(first.surface), std::move(second.surface), std::move(second.site_of_vertex), false};
 }
 
-/// Points spread over a surface: as many on every part as it has of the area, one at a random place in each
-/// of equal shares.
-class Sampling {
-public:
-    Sampling(const Surface& surface, int count) : surface_(surface), count_(count)
-    {
-        cumulative_.reserve(surface.triangles.size());
-        for (const Triangle& t : surface.triangles)
-            cumulative_.push_back(area_ += scaled_normal(surface.points, t).norm());
-    }
-
-    struct Place {
-        int face;
-        Point weights; ///< of the face's corners
-    };
-
-    [[nodiscard]] Place place(int number, Stream& draws) const
-    {
-        const double at = (number + uniform(draws)) / count_ * area_;
-        const auto found = std::lower_bound(cumulative_.begin(), cumulative_.end(), at);
-        const auto face =
-            std::min<std::ptrdiff_t>(found - cumulative_.begin(), static_cast<std::ptrdiff_t>(cumulative_.size()) - 1);
-        const double r = std::sqrt(uniform(draws));
-        const double s = uniform(draws);
-        return {static_cast<int>(face), Point(1 - r, r * (1 - s), r * s)};
-    }
-
-    [[nodiscard]] Point point(const Place& place, const Surface& surface) const
-    {
-        const Triangle& t = surface.triangles[place.face];
-        return place.weights[0] * surface.points[t[0]] + place.weights[1] * surface.points[t[1]] +
-               place.weights[2] * surface.points[t[2]];
-    }
-    [[nodiscard]] Point point(const Place& place) const { return point(place, surface_); }
-
-private:
-    const Surface& surface_;
-    int count_;
-    double area_ = 0; ///< twice
-    std::vector<double> cumulative_;
-};
-
 struct OneWay {
     double squares = 0;
     double sum = 0;
@@ -122,7 +81,7 @@ OneWay sampled(const Surface& from, const Surface& to, const ClosestSearch& near
             const Point p = sampling.point(place);
             double distance = 0;
             if (same_faces) {
-                const double bound = (sampling.point(place, to) - p).norm();
+                const double bound = (weighted_point(to, place.face, place.weights) - p).norm();
                 distance = std::min(bound, nearest(p, 1.000001 * bound + slack).distance);
             } else
                 distance = nearest(p).distance;

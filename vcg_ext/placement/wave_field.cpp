@@ -120,23 +120,19 @@ WaveField::WaveField(const WaveBody& body, const WavePlan& plan) : body_(body), 
         values_ = hat_means(body, plan, areas);
 
     const int stride = (sites + sample - 1) / sample;
-    Points points;
-    std::vector<double> weights;
     double sum = 0;
     for (int v = 0; v < sites; v += stride) {
-        points.push_back(body.points[v]);
-        weights.push_back(areas[v]);
+        sampled_.push_back(v);
         sum += areas[v];
     }
-    const std::vector<double> at = values_.empty() ? wave_values(points, plan.vectors, plan.phases) : values_;
-    const int step = values_.empty() ? 1 : stride;
-    const int rows = static_cast<int>(points.size());
+    for (const int v : sampled_)
+        weights_.push_back(sum > 0 ? areas[v] * area_ / sum : 0);
+    const std::vector<double> at = at_sites(sampled_);
+    const int rows = static_cast<int>(sampled_.size());
     gram_ = ordered_sum(rows, Eigen::MatrixXd(Eigen::MatrixXd::Zero(count, count)), [&](int i) -> Eigen::MatrixXd {
-        const Eigen::Map<const Eigen::VectorXd> w(at.data() + static_cast<std::size_t>(i) * step * count, count);
-        return weights[i] * w * w.transpose();
+        const Eigen::Map<const Eigen::VectorXd> w(at.data() + static_cast<std::size_t>(i) * count, count);
+        return weights_[i] * w * w.transpose();
     });
-    if (sum > 0)
-        gram_ *= area_ / sum;
     const double ridge = 1e-6 * gram_.trace() / count;
     solver_.compute(gram_ + ridge * Eigen::MatrixXd::Identity(count, count));
 }
@@ -214,6 +210,45 @@ std::vector<double> WaveField::nearest_for(double size, std::vector<double> chan
         square = dm.dot(p * dm);
     }
     return change;
+}
+
+std::vector<double> WaveField::at_sites(const std::vector<int>& sites) const
+{
+    const std::size_t count = plan_.vectors.size();
+    if (values_.empty()) {
+        Points points;
+        for (const int v : sites)
+            points.push_back(body_.points[v]);
+        return wave_values(points, plan_.vectors, plan_.phases);
+    }
+    std::vector<double> result;
+    result.reserve(sites.size() * count);
+    for (const int v : sites)
+        result.insert(result.end(), values_.begin() + static_cast<std::ptrdiff_t>(v * count),
+                      values_.begin() + static_cast<std::ptrdiff_t>((v + 1) * count));
+    return result;
+}
+
+std::vector<double> WaveField::wave(int k) const
+{
+    if (fine())
+        return wave_values({body_.points.begin(), body_.points.begin() + body_.topology.sites}, {plan_.vectors[k]},
+                           {plan_.phases[k]});
+    std::vector<double> result(body_.topology.sites);
+    for (std::size_t v = 0; v < result.size(); ++v)
+        result[v] = values_[v * plan_.vectors.size() + k];
+    return result;
+}
+
+Eigen::MatrixXd WaveField::integrals(int rows, const std::function<Eigen::VectorXd(const Point&)>& functions) const
+{
+    const int count = plan_.count();
+    const std::vector<double> waves = at_sites(sampled_);
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(rows, count);
+    for (std::size_t i = 0; i < sampled_.size(); ++i)
+        sums += weights_[i] * functions(body_.points[sampled_[i]]) *
+                Eigen::Map<const Eigen::RowVectorXd>(waves.data() + i * count, count);
+    return sums;
 }
 
 double WaveField::reach(int wave) const

@@ -3,6 +3,7 @@
 #include "../carrier/waves.h"
 
 #include <Eigen/Cholesky>
+#include <functional>
 
 namespace vcg_ext {
 
@@ -32,10 +33,28 @@ public:
     /// How much of a wave this mesh can make: 1 where its faces are small against the wave, to 0.
     [[nodiscard]] double reach(int wave) const;
 
+    /// G.
+    [[nodiscard]] const Eigen::MatrixXd& gram() const { return gram_; }
+
+    /// The integrals over the surface of `functions(x)` times each wave, a row a function: over the sites of G.
+    [[nodiscard]] Eigen::MatrixXd integrals(int rows,
+                                            const std::function<Eigen::VectorXd(const Point&)>& functions) const;
+
+    /// w_k(v) of the sites, row after row, one row a site.
+    [[nodiscard]] std::vector<double> at_sites(const std::vector<int>& sites) const;
+
+    /// w_k of all sites.
+    [[nodiscard]] std::vector<double> wave(int k) const;
+
+    /// Whether edges are so short against the waves that w_k(v) is the wave's value there.
+    [[nodiscard]] bool fine() const { return values_.empty(); }
+
 private:
     const WaveBody& body_;
     const WavePlan& plan_;
-    std::vector<double> values_; ///< w_k(v), row after row, where the mesh is coarse; else the waves themselves do
+    std::vector<int> sampled_;    ///< sites of the sums
+    std::vector<double> weights_; ///< of these: the areas that they stand for
+    std::vector<double> values_;  ///< w_k(v), row after row, where the mesh is coarse; else the waves themselves do
     Eigen::MatrixXd gram_;
     Eigen::LLT<Eigen::MatrixXd> solver_;
     double area_ = 0;

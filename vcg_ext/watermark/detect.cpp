@@ -47,12 +47,9 @@ std::vector<Count> counts_to_try(const DetectOptions& options)
     return counts;
 }
 
-/// Found once, whatever number of carriers is tried.
-using Frames = std::map<Method, MarkFrame>;
-
 /// What each layer of the method reads; those that cannot read this surface at all are left out, and say why.
-std::vector<LayerReading> read_layers(const Surface& surface, const Key& key, CarrierOptions options, Frames& frames,
-                                      double& trim, std::vector<std::string>& warnings)
+std::vector<LayerReading> read_layers(const LayerReader& read, const Key& key, CarrierOptions options, double& trim,
+                                      std::vector<std::string>& warnings)
 {
     const MethodRow& wanted = row_of(options.method);
     std::vector<LayerReading> layers;
@@ -62,12 +59,9 @@ std::vector<LayerReading> read_layers(const Surface& surface, const Key& key, Ca
         options.method = layer.first;
         try {
             const Plan plan = method.plan(key, options);
-            if (frames.find(layer.first) == frames.end())
-                frames.emplace(layer.first, method.find_frame(surface, plan));
-            LayerReading read{layer.first, method.read(surface, plan, frames.at(layer.first)),
-                              bit_mask(key, method.secret, options.bits)};
+            LayerReading one{layer.first, read(method, plan), bit_mask(key, method.secret, options.bits)};
             trim = std::max(trim, plan.trim);
-            layers.push_back(std::move(read));
+            layers.push_back(std::move(one));
         } catch (const Cancelled&) {
             throw;
         } catch (const Error& error) {
@@ -146,15 +140,14 @@ bool one_fits(const std::vector<Message>& expected, int carriers)
            });
 }
 
-Trial try_count(const Surface& surface, const Key& key, const DetectOptions& options, const Count& count,
-                Frames& frames)
+Trial try_count(const LayerReader& read, const Key& key, const DetectOptions& options, const Count& count)
 {
     Trial trial;
     trial.count = count;
     CarrierOptions carriers = options.carriers;
     carriers.bits = count.carriers;
     carriers.quick = count.quick;
-    trial.layers = read_layers(surface, key, carriers, frames, trial.trim, trial.warnings);
+    trial.layers = read_layers(read, key, carriers, trial.trim, trial.warnings);
     trial.judgement = judge(trial.layers, count.carriers, options.expected);
     return trial;
 }
@@ -234,20 +227,20 @@ const char* name(Verdict verdict)
     return names[static_cast<int>(verdict)];
 }
 
-DetectReport detect(const Surface& surface, const Key& key, const DetectOptions& options, const Progress& progress)
+DetectReport detect_by(const LayerReader& read, const std::vector<int>& site_of_vertex, double share, const Key& key,
+                       const DetectOptions& options, const Progress& progress)
 {
     options.carriers.check();
     Stopwatch watch;
-    report(progress, 0, "Finding carriers");
-    const Body body = body_of(surface);
     const bool asked = !options.expected.empty();
-    const std::vector<Count> counts = counts_to_try(options);
+    std::vector<Count> counts = counts_to_try(options);
+    for (Count& count : counts)
+        count.weight *= share;
     if (std::none_of(counts.begin(), counts.end(),
                      [&](const Count& count) { return one_fits(options.expected, count.carriers); }))
         throw Error("The expected message does not fit: " + need(options.expected.front()) + ", but Bits is " +
                     std::to_string(counts.front().carriers) + ". Bits must be that of embedding; 0 finds it.");
 
-    Frames frames;
     std::optional<Trial> best;
     double log10_any = 0;
     double log10_expected = 0;
@@ -255,7 +248,7 @@ DetectReport detect(const Surface& surface, const Key& key, const DetectOptions&
         report(progress, 10 + 80 * static_cast<int>(i) / static_cast<int>(counts.size()), "Reading");
         if (!one_fits(options.expected, counts[i].carriers))
             continue;
-        Trial trial = try_count(body.surface, key, options, counts[i], frames);
+        Trial trial = try_count(read, key, options, counts[i]);
         log10_any = std::min(log10_any, trial.log10_p(false));
         if (asked)
             log10_expected = std::min(log10_expected, trial.log10_p(true));
@@ -309,14 +302,32 @@ DetectReport detect(const Surface& surface, const Key& key, const DetectOptions&
     }
     result.smoothing_rounds = layer.readings.smoothing_rounds;
     result.orientation = way.orientation;
-    result.carrier_of_vertex = carrier_of_vertex(layer.readings, way, body.site_of_vertex);
+    result.carrier_of_vertex = carrier_of_vertex(layer.readings, way, site_of_vertex);
     for (const LayerReading& other : best->layers)
         if (result.carrier_of_vertex.empty())
             result.carrier_of_vertex =
-                carrier_of_vertex(other.readings, other.readings.ways[other.readings.blind], body.site_of_vertex);
+                carrier_of_vertex(other.readings, other.readings.ways[other.readings.blind], site_of_vertex);
+    result.warnings = best->warnings;
+    result.seconds["detection"] = watch.lap();
+    report(progress, 100, "Done");
+    return result;
+}
+
+DetectReport detect(const Surface& surface, const Key& key, const DetectOptions& options, const Progress& progress)
+{
+    options.carriers.check();
+    Stopwatch watch;
+    report(progress, 0, "Finding carriers");
+    const Body body = body_of(surface);
+    std::map<Method, MarkFrame> frames; // found once, whatever number of carriers is tried
+    const LayerReader read = [&](const MethodRow& method, const Plan& plan) {
+        if (frames.find(method.method) == frames.end())
+            frames.emplace(method.method, method.find_frame(body.surface, plan));
+        return method.read(body.surface, plan, frames.at(method.method));
+    };
+    DetectReport result = detect_by(read, body.site_of_vertex, 1, key, options, progress);
     result.pieces = body.pieces;
     result.loose_pieces = body.loose_pieces;
-    result.warnings = best->warnings;
     if (const std::string loose = about_loose_pieces(body); !loose.empty())
         result.warnings.push_back(loose);
     if (const int parts = body.pieces - body.loose_pieces; parts > 1 && result.finding != Verdict::Present)
@@ -324,7 +335,6 @@ DetectReport detect(const Surface& surface, const Key& key, const DetectOptions&
                                   " separate pieces, read as one body. Where some were added or taken away, split it "
                                   "into its connected components and look into each.");
     result.seconds["detection"] = watch.lap();
-    report(progress, 100, "Done");
     return result;
 }
 

@@ -2,10 +2,22 @@
 #pragma once
 #include "../base/progress.h"
 #include "../key/key.h"
+#include "../method/methods.h"
 #include "options.h"
 #include "report.h"
 
+#include <functional>
+
 namespace vcg_ext {
+
+/// What one layer reads of a surface by a plan.
+using LayerReader = std::function<Readings(const MethodRow& method, const Plan& plan)>;
+
+/// Reads and judges by whatever reader: numbers of carriers, layers, probabilities, the verdict.
+/// \param site_of_vertex of the surface that is read, see Welded
+/// \param share of all false alarms that may be this one's: probabilities are divided by it
+[[nodiscard]] DetectReport detect_by(const LayerReader& read, const std::vector<int>& site_of_vertex, double share,
+                                     const Key& key, const DetectOptions& options, const Progress& progress = {});
 
 /// Reads a message with the key alone. Same input, same answer: at any number of threads, on any machine.
 ///

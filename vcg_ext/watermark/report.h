@@ -57,6 +57,28 @@ struct LayerReport {
     std::optional<double> presence;
 };
 
+/// How a copy lies in its original.
+struct RegistrationReport {
+    bool found = false;                                 ///< whether it is a copy at all
+    Eigen::Matrix4d pose = Eigen::Matrix4d::Identity(); ///< takes it to the original
+    double scale = 1;                                   ///< its size over the original's
+    bool mirrored = false;
+    double stretch = 0;  ///< largest over least scale along any direction, less 1
+    double overlap = 0;  ///< part of its area that lies on the original
+    double residual = 0; ///< mean distance from there, the farthest twentieth left out, over the original's diagonal
+    std::string by;      ///< what found it
+};
+
+/// A connected piece of the mesh that was looked at by itself.
+struct PartReport {
+    int vertices = 0;
+    double area_share = 0; ///< of the mesh's area
+    RegistrationReport registration;
+    std::optional<double> p_value; ///< the share of the doubt that the part has is taken off, as of p_message
+    double p_message = 1;
+    std::string verdict;
+};
+
 struct DetectReport {
     Method method{};
     Statistic statistic{};
@@ -87,6 +109,8 @@ struct DetectReport {
     std::optional<int> smoothing_rounds; ///< of the surface before it was read; Method::Geodesic only
     std::map<std::string, double> seconds;
     std::vector<std::string> warnings;
+    std::optional<RegistrationReport> registration; ///< with the original at hand
+    std::vector<PartReport> parts; ///< likewise, where the mesh as a whole gave nothing and has several pieces
     /// Spectral: whether axis 1 and axis 2 were read along (+) or against (-) the body's third moments, as "++" or "-+".
     std::string orientation;
     /// Per vertex the number of the carrier that it is in, or -1; of the first layer whose carriers are sets of vertices,

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Detection with the original at hand, through every door."""
+
+from pathlib import Path
+
+import pymeshlab
+import pytest
+from doors import DETECT, DETECT_WITH_ORIGINAL, DOORS, EMBED, MESHES, PyMeshLab, Refused, Value
+
+KEY = "correct horse battery staple"
+MESSAGE = "(c) 2026"
+ORIGINAL = MESHES / "bunny00.off"
+
+pytestmark = pytest.mark.usefixtures("display")
+
+
+@pytest.fixture(scope="module")
+def marked(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("marked") / "marked.ply"
+    PyMeshLab().run(EMBED, ORIGINAL, path, Message=MESSAGE, Key=KEY)
+    return path
+
+
+@pytest.fixture(scope="module")
+def piece(marked: Path) -> Path:
+    """A third of the marked mesh, elsewhere and at another size."""
+    meshes = pymeshlab.MeshSet()
+    meshes.load_new_mesh(str(marked))
+    meshes.apply_filter("apply_watermark_attack", attack="Crop", amount=0.67, seed=4)
+    meshes.apply_filter("apply_watermark_attack", attack="Similarity", seed=4)
+    path = marked.parent / "piece.ply"
+    meshes.save_current_mesh(str(path))
+    return path
+
+
+def test_a_piece_is_read_through_every_door(piece: Path) -> None:
+    asked: dict[str, Value] = {"Key": KEY, "Expected": MESSAGE}
+    assert PyMeshLab().run(DETECT, piece, **asked)["present"] is False
+    reports = {
+        name: door().run(DETECT_WITH_ORIGINAL, piece, before=ORIGINAL, Original=0, **asked)
+        for name, door in DOORS.items()
+    }
+    for name, report in reports.items():
+        assert report["present"] is True, name
+        assert report["registration"]["found"] is True, name
+        assert report["registration"]["overlap"] > 0.97, name
+        assert 0.3 < report["registration"]["scale"] < 3, name
+    first, second = reports.values()
+    # The hosts store the original in float and in double.
+    assert first["registration"]["scale"] == pytest.approx(second["registration"]["scale"], rel=1e-4)
+    assert first["bits"] == second["bits"]
+
+
+def test_the_dict_has_the_registration_and_meshes_stay(marked: Path) -> None:
+    meshes = pymeshlab.MeshSet()
+    meshes.load_new_mesh(str(ORIGINAL))
+    meshes.load_new_mesh(str(marked))
+    before = meshes.current_mesh().vertex_matrix()
+    found = meshes.apply_filter("get_watermark_with_original", original=0, key=KEY, expected=MESSAGE)
+    assert found["present"] is True
+    assert found["registration_found"] is True
+    assert found["registration_scale"] == pytest.approx(1, rel=1e-4)
+    assert len(found["registration_pose"]) == 16
+    assert (meshes.current_mesh().vertex_matrix() == before).all()
+
+
+def test_bad_choices_of_the_original_are_named(marked: Path) -> None:
+    door = PyMeshLab()
+    with pytest.raises(Refused, match="current layer itself"):
+        door.run(DETECT_WITH_ORIGINAL, marked, before=ORIGINAL, Original=1, Key=KEY)
+    with pytest.raises(Refused, match="carries a mark of this key itself"):
+        door.run(DETECT_WITH_ORIGINAL, ORIGINAL, before=marked, Original=0, Key=KEY, Expected=MESSAGE)
+    other = door.run(
+        DETECT_WITH_ORIGINAL, MESHES / "fandisk.off", before=ORIGINAL, Original=0, Key=KEY, Expected=MESSAGE
+    )
+    assert other["registration"]["found"] is False
+    assert "not a copy of this original" in str(other["verdict"])

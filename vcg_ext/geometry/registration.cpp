@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "registration.h"
+
+#include "edge_graph.h"
+#include "features.h"
+#include "icp.h"
+#include "moments.h"
+#include "size.h"
+#include "solid.h"
+#include "umbrella.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace vcg_ext {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// Lengths are in sizes of the original.
+constexpr double far = 0.08;      ///< further from the original than this is all alike
+constexpr double sure = 0.02;     ///< mean of min(distance, far) / far below which no other pose is looked at
+constexpr double accepted = 0.25; ///< and below which a pose may be taken
+constexpr double least_overlap = 0.97;
+constexpr int samples_to_score = 300;
+constexpr int samples_to_polish = 600;
+constexpr int samples_to_judge = 1500;
+constexpr int samples_to_refine = 4000;
+constexpr int poses_to_polish = 6;
+constexpr int most_alternatives = 2;
+
+struct Hypothesis {
+    const char* by;
+    Eigen::Affine3d pose;
+};
+
+struct Scored {
+    double score = 9;   ///< see `sure`
+    double overlap = 0; ///< of the samples
+    const char* by = "";
+    Eigen::Affine3d pose = Eigen::Affine3d::Identity();
+
+    [[nodiscard]] bool fits() const { return score < accepted && overlap > least_overlap; }
+};
+
+Scored scored(const FootSearch& original, double size, const Points& points, int count, const Hypothesis& hypothesis)
+{
+    Scored result{0, 0, hypothesis.by, hypothesis.pose};
+    for (const Foot& foot : feet_of(original, points, count, hypothesis.pose, far * size)) {
+        result.score += (foot.face < 0 ? 1 : foot.distance / (far * size)) / count;
+        result.overlap += foot.face < 0 ? 0 : 1.0 / count;
+    }
+    return result;
+}
+
+/// A frame and a length, by which two surfaces can be laid on each other.
+struct Stand {
+    Point centre;
+    Eigen::Matrix3d axes;
+    double length;
+};
+
+/// Centre, axes and square root of the area; exact moments of triangles.
+Stand surface_stand(const Surface& surface)
+{
+    double area = 0;
+    Point first = Point::Zero();
+    Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+    const Point near = surface.points[surface.triangles.front()[0]];
+    for (const Triangle& t : surface.triangles) {
+        const double a = scaled_normal(surface.points, t).norm();
+        const Point corner[3] = {surface.points[t[0]] - near, surface.points[t[1]] - near, surface.points[t[2]] - near};
+        const Point sum = corner[0] + corner[1] + corner[2];
+        area += a;
+        first += a * sum / 3;
+        second += a / 12 * sum * sum.transpose();
+        for (const Point& p : corner)
+            second += a / 12 * p * p.transpose();
+    }
+    first /= area;
+    second = second / area - first * first.transpose();
+    Stand stand{near + first, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(second).eigenvectors(), std::sqrt(area)};
+    if (stand.axes.determinant() < 0)
+        stand.axes.col(2) *= -1;
+    return stand;
+}
+
+/// Centre, axes and ball radius of the solid; a length of 0 where there is none.
+Stand solid_stand(const Surface& surface)
+{
+    const SolidTopology topology = solid_topology(surface);
+    const Frame frame = solid_frame(solid_points(topology, surface.points), topology.triangles);
+    return {frame.centre, frame.axes, frame.measure == 0 ? 0 : ball_radius(frame)};
+}
+
+/// `from` laid on `to` in all eight ways, mirrored ones last.
+void add_poses(const char* by, const Stand& from, const Stand& to, std::vector<Hypothesis>& all)
+{
+    if (!(from.length > 0) || !(to.length > 0))
+        return;
+    for (const double hand : {1.0, -1.0})
+        for (const double x : {1.0, -1.0})
+            for (const double y : {1.0, -1.0}) {
+                Eigen::Affine3d pose;
+                pose.linear() = to.axes * Point(x, y, hand * x * y).asDiagonal() * from.axes.transpose() *
+                                (to.length / from.length);
+                pose.translation() = to.centre - pose.linear() * from.centre;
+                all.push_back({by, pose});
+            }
+}
+
+IcpOptions coarse(double size)
+{
+    return {12, false, 0.15 * size, 0.02 * size, 0.3};
+}
+
+/// Whether two poses hold a body in different ways.
+bool differs(const Eigen::Affine3d& a, const Eigen::Affine3d& b)
+{
+    const auto unit = [](const Eigen::Affine3d& pose) {
+        return Eigen::Matrix3d(pose.linear() / std::cbrt(std::abs(pose.linear().determinant())));
+    };
+    return (unit(a) - unit(b)).cwiseAbs().maxCoeff() > 0.3;
+}
+
+/// The hypotheses that fit best after some polishing; the best first.
+std::vector<Scored> polished(const FootSearch& original, double size, const SurfaceSamples& samples,
+                             const std::vector<Hypothesis>& hypotheses)
+{
+    std::vector<Scored> rough;
+    for (const Hypothesis& hypothesis : hypotheses)
+        rough.push_back(scored(original, size, samples.points, samples_to_score, hypothesis));
+    const auto better = [](const Scored& a, const Scored& b) { return a.score < b.score; };
+    std::stable_sort(rough.begin(), rough.end(), better);
+    std::vector<Scored> fine;
+    for (std::size_t i = 0; i < rough.size() && i < poses_to_polish; ++i) {
+        Eigen::Affine3d pose = rough[i].pose;
+        if (!refine_pose(original, samples, samples_to_polish, coarse(size), pose))
+            continue;
+        fine.push_back(scored(original, size, samples.points, samples_to_judge, {rough[i].by, pose}));
+        if (fine.back().score < sure)
+            break;
+    }
+    std::stable_sort(fine.begin(), fine.end(), better);
+    return fine;
+}
+
+/// The scales at which features are looked for: where vertices were kept, the ratio of edges is the scale; else steps
+/// from the least, at which a part of the original is as large as it.
+std::vector<double> scales_to_try(const Surface& original, const Surface& surface)
+{
+    constexpr int steps = 13;
+    constexpr double step = 1.1;
+    const double least = std::max(0.95 * bounding_diagonal(surface) / bounding_diagonal(original),
+                                  0.97 * std::sqrt(surface_area(surface) / surface_area(original)));
+    std::vector<double> scales;
+    const double edges = mean_edge_length(surface) / mean_edge_length(original);
+    if (edges > least * 0.9 && edges < least * std::pow(step, steps))
+        scales.push_back(edges);
+    for (int i = 0; i < steps; ++i)
+        scales.push_back(least * std::pow(step, i));
+    return scales;
+}
+
+/// By local shapes. \param side of the surface's normals
+std::vector<Scored> by_features(const FootSearch& original, double size, const Surface& surface,
+                                const SurfaceSamples& samples, double side, const Progress& progress)
+{
+    constexpr int spread = 12000;
+    const double diagonal = bounding_diagonal(original.surface());
+    const std::vector<double> scales = scales_to_try(original.surface(), surface);
+    std::vector<double> sizes;
+    for (const double scale : scales)
+        sizes.push_back(scale * diagonal);
+    report(progress, 0, "Comparing shapes");
+    const double outward = signed_volume(original.surface(), surface_stand(original.surface()).centre) < 0 ? -1 : 1;
+    const Features own = features_of(sample_surface(original.surface(), spread, "features"),
+                                     surface_area(original.surface()), 250, {diagonal}, outward);
+    const Features other =
+        features_of(sample_surface(surface, spread, "features"), surface_area(surface), 800, sizes, side);
+    const NearnessGrid near(original, 0.05 * diagonal);
+    const Points few(samples.points.begin(), samples.points.begin() + 150);
+    std::vector<Scored> best;
+    for (std::size_t s = 0; s < scales.size(); ++s) {
+        report(progress, 10 + 90 * static_cast<int>(s) / static_cast<int>(scales.size()), "Comparing shapes");
+        FeatureOptions options;
+        options.least_side = 0.12 * diagonal;
+        options.draw = s;
+        std::vector<Hypothesis> hypotheses;
+        for (const FeaturePose& found : poses_by_features(own, other, s, scales[s], near, few, options))
+            if (found.nearness > 0.35)
+                hypotheses.push_back({"features", found.pose});
+        for (const Scored& one : polished(original, size, samples, hypotheses))
+            if (best.empty() || one.score < best.front().score)
+                best = {one};
+        if (!best.empty() && best.front().fits())
+            break;
+    }
+    return best;
+}
+
+/// How far samples lie from the original: mean distance, the farthest twentieth left out.
+double spread_of(const FootSearch& original, const SurfaceSamples& samples, const Eigen::Affine3d& pose, double reach)
+{
+    const int count = static_cast<int>(samples.points.size());
+    std::vector<double> distances;
+    for (const Foot& foot : feet_of(original, samples.points, count, pose, reach))
+        distances.push_back(foot.face < 0 ? reach : foot.distance);
+    std::sort(distances.begin(), distances.end());
+    const int kept = count * 19 / 20;
+    double sum = 0;
+    for (int i = 0; i < kept; ++i)
+        sum += distances[i];
+    return sum / kept;
+}
+
+/// Whether a stretched pose is still the same pose: where little is left of a copy, twelve unknowns may let it collapse.
+bool is_near(const Eigen::Affine3d& affine, const Eigen::Affine3d& pose)
+{
+    constexpr double most = 1.35;
+    const Eigen::Matrix3d change = affine.linear() * pose.linear().inverse();
+    const Eigen::Vector3d sizes = Eigen::JacobiSVD<Eigen::Matrix3d>(change).singularValues();
+    return sizes[0] < most && sizes[2] * most > 1;
+}
+
+} // namespace
+
+double Registration::scale() const
+{
+    return 1 / std::cbrt(std::abs(pose.linear().determinant()));
+}
+
+Registrar::Registrar(const FootSearch& original) : original_(original)
+{
+    const double solid = solid_stand(original.surface()).length;
+    size_ = solid > 0 ? solid : std::sqrt(surface_area(original.surface()) / (4 * pi));
+}
+
+void Registrar::refine(const Surface& surface, Registration& registration) const
+{
+    const SurfaceSamples samples = sample_surface(surface, samples_to_refine, "registration");
+    IcpOptions options{15, false, 0.06 * size_, 0.02 * size_, 0.2};
+    refine_pose(original_, samples, samples_to_refine, options, registration.pose);
+    registration.affine = registration.pose;
+    options.affine = true;
+    options.iterations = 20;
+    Eigen::Affine3d affine = registration.pose;
+    refine_pose(original_, samples, samples_to_refine, options, affine);
+    if (is_near(affine, registration.pose))
+        registration.affine = affine;
+    const double spread = spread_of(original_, samples, registration.affine, far * size_);
+    registration.residual = spread / bounding_diagonal(original_.surface());
+    registration.stretched_less =
+        spread_of(original_, samples, registration.pose, far * size_) / std::max(spread, 1e-300);
+    const std::vector<Foot> feet =
+        feet_of(original_, samples.points, samples_to_judge, registration.affine, far * size_);
+    registration.inside_out = side_of(original_, samples, feet, registration.affine) < 0;
+}
+
+double Registrar::follow(const Surface& surface, Registration& registration) const
+{
+    const SurfaceSamples samples = sample_surface(surface, samples_to_judge, "following");
+    const IcpOptions options{8, true, 0.06 * size_, 0.03 * size_, 0.2};
+    Eigen::Affine3d affine = registration.affine;
+    refine_pose(original_, samples, samples_to_judge, options, affine);
+    if (is_near(affine, registration.pose))
+        registration.affine = affine;
+    registration.residual =
+        spread_of(original_, samples, registration.affine, far * size_) / bounding_diagonal(original_.surface());
+    return registration.residual;
+}
+
+Registration Registrar::operator()(const Surface& surface, const Progress& progress) const
+{
+    const SurfaceSamples samples = sample_surface(surface, samples_to_refine, "registration");
+    report(progress, 0, "Registering");
+    std::vector<Hypothesis> hypotheses{{"identity", Eigen::Affine3d::Identity()}};
+    std::vector<Scored> found = polished(original_, size_, samples, hypotheses);
+    const Stand own = surface_stand(surface);
+    if (found.empty() || !(found.front().score < sure)) {
+        add_poses("volume", solid_stand(surface), solid_stand(original_.surface()), hypotheses);
+        add_poses("surface", own, surface_stand(original_.surface()), hypotheses);
+        report(progress, 10, "Registering");
+        found = polished(original_, size_, samples, hypotheses);
+    }
+    if (found.empty() || !found.front().fits()) {
+        const EdgeGraph graph = edge_graph(original_.surface());
+        Surface smoothed = original_.surface();
+        int rounds = 0;
+        for (const int wanted : {10, 50}) {
+            report(progress, 20 + wanted / 5, "Registering");
+            for (; rounds < wanted; ++rounds)
+                smoothed.points = umbrella_step(graph, smoothed.points, 0.5);
+            const std::vector<Scored> other = polished(FootSearch(smoothed), size_, samples, hypotheses);
+            if (!other.empty() && other.front().fits()) {
+                found = other;
+                break;
+            }
+        }
+    }
+    if (found.empty() || !found.front().fits()) {
+        const double side = signed_volume(surface, own.centre) < 0 ? -1 : 1;
+        const std::vector<Scored> other =
+            by_features(original_, size_, surface, samples, side, within(progress, 35, 90));
+        if (!other.empty() && (found.empty() || other.front().score < found.front().score))
+            found = other;
+    }
+    Registration result;
+    if (found.empty())
+        return result;
+    if (!found.front().fits()) {
+        result.pose = result.affine = found.front().pose;
+        result.by = found.front().by;
+        result.overlap = found.front().overlap;
+        result.residual =
+            spread_of(original_, samples, result.pose, far * size_) / bounding_diagonal(original_.surface());
+        return result;
+    }
+
+    report(progress, 90, "Registering");
+    const double close = 2 * found.front().score + 0.03;
+    std::vector<Scored> rivals{found.front()};
+    for (const Scored& one : found)
+        if (one.score < close && static_cast<int>(rivals.size()) <= most_alternatives &&
+            std::all_of(rivals.begin(), rivals.end(),
+                        [&](const Scored& rival) { return differs(rival.pose, one.pose); }))
+            rivals.push_back(one);
+    for (const Scored& rival : rivals) {
+        Registration one;
+        one.pose = rival.pose;
+        one.by = rival.by;
+        one.found = true;
+        one.overlap = rival.overlap;
+        refine(surface, one);
+        if (&rival == &rivals.front() || one.residual < result.residual)
+            result = one;
+    }
+    return result;
+}
+
+} // namespace vcg_ext

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "copy.h"
+
+#include "../base/parallel.h"
+
+#include <utility>
+
+namespace vcg_ext {
+
+namespace {
+/// Distances under seven unknowns over those under twelve, above which a copy counts as stretched: more unknowns than
+/// are needed would follow the noise.
+constexpr double stretched = 1.1;
+} // namespace
+
+Surface laid_on_original(const Copy& copy)
+{
+    const Registration& found = copy.registration;
+    const Eigen::Affine3d& pose = found.stretched_less > stretched ? found.affine : found.pose;
+    Surface laid = copy.surface;
+    for_each_index(static_cast<int>(laid.points.size()), [&](int v) { laid.points[v] = pose * laid.points[v]; });
+    if (found.mirrored() != found.inside_out)
+        for (Triangle& t : laid.triangles)
+            std::swap(t[1], t[2]);
+    return laid;
+}
+
+std::vector<Foot> feet_on_original(const Copy& copy, const Surface& laid)
+{
+    constexpr double reach = 0.1; // of the original's size
+    std::vector<Foot> feet(laid.points.size());
+    for_chunks(static_cast<int>(feet.size()), 512, [&](int begin, int end) {
+        for (int v = begin; v < end; ++v)
+            feet[v] = copy.registrar.original()(laid.points[v], reach * copy.registrar.size());
+    });
+    return feet;
+}
+
+} // namespace vcg_ext

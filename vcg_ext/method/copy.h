@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "../geometry/registration.h"
+
+namespace vcg_ext {
+
+/// A welded surface that was registered to the original that it is a copy of.
+struct Copy {
+    const Surface& original; ///< as body_of() mends it
+    const Surface& surface;
+    const Registrar& registrar; ///< of the original
+    Registration registration;
+};
+
+/// Where its vertices stand on the original, laid on it: no feet where that is missing.
+[[nodiscard]] std::vector<Foot> feet_on_original(const Copy& copy, const Surface& laid);
+
+/// The copy laid on its original: in the original's place, at its size, its faces looking the same way.
+[[nodiscard]] Surface laid_on_original(const Copy& copy);
+
+} // namespace vcg_ext

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "../carrier/demodulation.h"
+#include "../geometry/edge_graph.h"
+#include "../placement/wave_reply.h"
+#include "copy.h"
+
+namespace vcg_ext {
+
+/// Samples of a copy at their feet on the original, or on the original after some rounds of smoothing; how it was
+/// marked has no part in it.
+class WaveCopy {
+public:
+    explicit WaveCopy(const Copy& copy);
+
+    /// The original.
+    [[nodiscard]] const WaveBody& body() const { return body_; }
+
+    /// One way to see what was done to the copy.
+    struct State {
+        int rounds = 0;    ///< of smoothing with uniform weights, by a half, before it was registered
+        double weight = 1; ///< fixed before looking at what it says; all sum to 1
+        Registration registration;
+        ResidualField field; ///< but for the waves
+        std::vector<Foot> feet;
+        Points normals; ///< of the original at the feet, outward, in its frame
+    };
+
+    [[nodiscard]] const std::vector<State>& states() const { return states_; }
+
+    /// ResidualField::waves of a state: the waves as smoothing leaves them, at the feet, along the normals there.
+    [[nodiscard]] Rows waves(const State& state, const WaveField& field, const WavePlan& plan) const;
+
+private:
+    void look(const Copy& copy, const FootSearch& feet, State state);
+
+    WaveBody body_;
+    EdgeGraph graph_;
+    Points directions_;
+    std::vector<State> states_;
+};
+
+} // namespace vcg_ext
