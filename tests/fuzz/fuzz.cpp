@@ -90,7 +90,7 @@ void damage(Surface& s, Stream& draws)
         s.triangles.push_back(s.triangles[face()]);
         break;
     case 5:
-        s.triangles.resize(static_cast<std::size_t>(1 + face()));
+        s.triangles.resize(std::size_t{1} + face());
         break;
     case 6:
         s.points.push_back(s.points[vertex()]);
