@@ -27,7 +27,6 @@ from .likeness import Likeness, nearest, ranked
 PROVEN = 1e-6  # below it somebody is named
 DOUBT = 1e-2  # below it "nobody" is not said either
 REGISTERED = 2  # pieces, besides the whole, that are laid on originals
-ORIGINALS = 8  # that are tried with each of these
 ANOTHER_KEY = 3  # DetectReport.finding
 
 
@@ -162,8 +161,8 @@ def _originals(folder: Path, models: list[Model]) -> dict[int, Path]:
 
 
 def _likely_first(piece: Piece, models: list[Model], files: dict[int, Path]) -> list[Model]:
-    """The originals that are tried with a piece; a part is like none, so the nearest few are taken."""
-    return [like.model for like in ranked(piece, models) if like.model.id in files][:ORIGINALS]
+    """The models whose originals are tried with a piece; a part is like none, so all are, the nearest first."""
+    return [like.model for like in ranked(piece, models) if like.model.id in files]
 
 
 def _candidates(ledger: Ledger) -> list[tuple[Settings, dict[int, int]]]:
