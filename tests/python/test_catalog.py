@@ -46,7 +46,7 @@ def order(tmp_path: Path, scheduler: str, monkeypatch: pytest.MonkeyPatch) -> Or
         tmp_path / "out",
         read_recipients(tmp_path / "who.csv"),
         meshmark.Key(f"file:{tmp_path / 'secret.key'}"),
-        Settings(method="Waves"),
+        Settings(method="L-M"),
     )
 
 
@@ -82,7 +82,7 @@ def test_each_copy_says_whose_it_is_and_the_ledger_knows(order: Order) -> None:
             message = f"id:{names[copy.recipient][1]}"
             found = meshmark.detect(order.copies / copy.file, expected=message, key=KEY, **copy.recipe.values())
             assert found.found
-            assert copy.figures["mrms_relative"] < 2e-4
+            assert copy.figures["mrms_relative"] < 1e-4
     assert not [path for path in order.copies.rglob("*") if path.is_file() and KEY.encode() in path.read_bytes()]
     again = made(order)
     assert (again.made, again.before) == (0, 2)
@@ -91,7 +91,7 @@ def test_each_copy_says_whose_it_is_and_the_ledger_knows(order: Order) -> None:
 def test_killed_halfway_and_run_again_all_are_there_and_none_twice(order: Order, tmp_path: Path) -> None:
     write_bodies(order.models, range(2))
     (tmp_path / "who.csv").write_text("recipient\n" + "".join(f"buyer {n}\n" for n in range(6)))
-    line = [COMMAND, "catalog", "models", "who.csv", "out", "--method", "Waves", "--workers", "2", "--json",
+    line = [COMMAND, "catalog", "models", "who.csv", "out", "--method", "L-M", "--workers", "1", "--json",
             "--key-file", "secret.key"]  # fmt: skip
     with subprocess.Popen(line, cwd=tmp_path, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL) as run:
         while run.poll() is None and len(visible(order.copies)) < 5:

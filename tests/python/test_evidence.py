@@ -27,13 +27,12 @@ from meshmark.tracing import trace
 def test_a_part_is_laid_on_the_model_at_any_size_place_and_chirality() -> None:
     model = body(1, level=3)
     turn = trimesh.transformations.rotation_matrix(2, [3, 1, 2], [40, 5, 6]) @ np.diag([-3, 3, 3, 1])
-    for keep in (1, 0.75):
-        part = model.copy()
-        part.update_faces(part.triangles_center[:, 0] <= np.quantile(part.triangles_center[:, 0], keep))
-        found = part.copy().apply_transform(turn)
-        laid, _ = laid_on(found.vertices, found.faces, model.vertices, model.faces)
-        apart = np.linalg.norm(laid - part.vertices, axis=1)[np.unique(part.faces)]
-        assert apart.max() < 0.005 * np.linalg.norm(model.extents)
+    part = model.copy()
+    part.update_faces(part.triangles_center[:, 0] <= np.quantile(part.triangles_center[:, 0], 0.75))
+    found = part.copy().apply_transform(turn)
+    laid, _ = laid_on(found.vertices, found.faces, model.vertices, model.faces)
+    apart = np.linalg.norm(laid - part.vertices, axis=1)[np.unique(part.faces)]
+    assert apart.max() < 0.005 * np.linalg.norm(model.extents)
 
 
 @pytest.mark.parametrize(
@@ -67,7 +66,7 @@ def test_the_page_has_all_that_somebody_else_needs(tmp_path: Path) -> None:
     write_bodies(tmp_path / "models", range(1))
     (tmp_path / "secret.key").write_text("the key itself")
     key = meshmark.Key(f"file:{tmp_path / 'secret.key'}")
-    order = Order(tmp_path / "models", tmp_path / "out", [Recipient("<b>Jane & Co", ())], key, Settings(method="Waves"))
+    order = Order(tmp_path / "models", tmp_path / "out", [Recipient("<b>Jane & Co", ())], key, Settings(method="L-M"))
     with LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None) as cluster:
         make_copies(order, tmp_path / "ledger.sqlite", scheduler=cluster.scheduler_address)
     (copy,) = (tmp_path / "out").rglob("*.stl")

@@ -32,7 +32,7 @@ class Shop:
         (folder / "secret.key").write_text(secret)
         write_bodies(folder / "models", range(2))
         recipients = [Recipient(name, ()) for name in buyers]
-        order = Order(folder / "models", folder / "out", recipients, self.key, Settings(method="Waves"))
+        order = Order(folder / "models", folder / "out", recipients, self.key, Settings(method="L-M"))
         assert make_copies(order, folder / "ledger.sqlite", scheduler=scheduler).made == 2 * len(buyers)
 
     def copy(self, name: str, number: int) -> Path:
@@ -64,11 +64,11 @@ def test_a_name_through_formats_mirrors_and_plates(shops: tuple[Shop, Shop], tmp
     jane.copy().apply_transform(turn).export(tmp_path / "mirrored, turned, in inches.glb")
     others = [loaded(shop.copy("Bob", 1)).apply_translation([200 * k, 0, 0]) for k in (1, 2, 3)]
     trimesh.util.concatenate([body(3), *others]).export(tmp_path / "plate.stl")
-    meshmark.attack(shop.copy("Jane", 1), tmp_path / "half.ply", attack="Simplify", amount=0.5)
+    meshmark.attack(shop.copy("Jane", 1), tmp_path / "noisy.ply", attack="Noise", amount=0.001)
     for file, name, piece in [
         (shop.copy("Jane", 1), "Jane", "the whole file"),
         (tmp_path / "mirrored, turned, in inches.glb", "Jane", "the whole file"),
-        (tmp_path / "half.ply", "Jane", "the whole file"),
+        (tmp_path / "noisy.ply", "Jane", "the whole file"),
         (tmp_path / "plate.stl", "Bob", "piece "),
     ]:
         result = shop.trace(file)
@@ -100,7 +100,7 @@ def test_no_guess_where_it_cannot_be_told(shops: tuple[Shop, Shop], tmp_path: Pa
 def test_a_copy_that_is_not_in_the_ledger_names_nobody(shops: tuple[Shop, Shop], tmp_path: Path) -> None:
     shop = shops[0]
     source = shop.folder / "models" / "body0.stl"
-    meshmark.embed(source, tmp_path / "x.stl", message="id:5", key=shop.key, method="Waves")
+    meshmark.embed(source, tmp_path / "x.stl", message="id:5", key=shop.key, method="L-M")
     result = shop.trace(tmp_path / "x.stl")
     assert (result.answer, result.recipient) == (Answer.CANNOT_TELL, None)
     assert "id:5" in result.sentence
@@ -132,7 +132,7 @@ def test_p_counts_candidates_and_readings(shops: tuple[Shop, Shop], tmp_path: Pa
     assert (result.candidates, result.tries) == (2, 3)
     assert result.p == pytest.approx(3 * best.p)
     alone = meshmark.detect(
-        shop.copy("Bob", 0), key=shop.key, method="Waves", bits=64, expected=best.report.message
+        shop.copy("Bob", 0), key=shop.key, method="L-M", bits=64, expected=best.report.message
     ).p_value
     assert best.p == pytest.approx(2 * alone, rel=1e-3)
 
@@ -177,7 +177,7 @@ def test_a_signature_is_that_of_the_shape(tmp_path: Path) -> None:
     write_bodies(tmp_path, range(8))
     signatures = [body_signature(read_body(path)) for path in sorted(tmp_path.iterdir())]
     apart = [difference(x, y) for n, x in enumerate(signatures) for y in signatures[:n]]
-    meshmark.embed(tmp_path / "body1.stl", tmp_path / "marked.stl", message="id:1", key=KEY, method="Waves")
+    meshmark.embed(tmp_path / "body1.stl", tmp_path / "marked.stl", message="id:1", key=KEY, method="L-M")
     marked = body_signature(read_body(tmp_path / "marked.stl"))
     assert difference(marked, body_signature(read_body(tmp_path / "body1.stl"))) < min(apart) / 4
 

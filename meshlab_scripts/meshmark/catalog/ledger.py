@@ -8,6 +8,7 @@ entered before its file appears under its name: so where there is a file there i
 import json
 import secrets
 import sqlite3
+from collections import defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -141,6 +142,20 @@ class Ledger:
         """Name and message by id."""
         return {row[0]: row[1:] for row in self._sql.execute("SELECT id, name, message FROM recipients")}
 
+    def name(self, recipient: int) -> str:
+        """Of one recipient."""
+        return self._sql.execute("SELECT name FROM recipients WHERE id = ?", (recipient,)).fetchone()[0]
+
+    def has(self, model: int, recipient: int) -> bool:
+        """Whether this copy was made."""
+        row = self._sql.execute("SELECT 1 FROM copies WHERE model = ? AND recipient = ?", (model, recipient)).fetchone()
+        return row is not None
+
+    @property
+    def empty(self) -> bool:
+        """Whether there are no copies."""
+        return self._sql.execute("SELECT 1 FROM copies LIMIT 1").fetchone() is None
+
     def add_recipients(self, names: Iterable[str]) -> None:
         """Gives those who are new a message each.
 
@@ -178,16 +193,13 @@ class Ledger:
 
     def candidates(self) -> dict[Settings, dict[int, int]]:
         """Who has a copy of this recipe: recipient and message."""
-        found: dict[Settings, dict[int, int]] = {}
-        rows = self._sql.execute(
-            "SELECT DISTINCT copies.recipe, recipients.id, recipients.message "
-            "FROM copies JOIN recipients ON recipients.id = copies.recipient ORDER BY copies.recipe, recipients.id"
-        )
-        recipes: dict[str, Settings] = {}
-        for text, recipient, message in rows:
-            settings = recipes.get(text) or recipes.setdefault(text, Settings(**json.loads(text)))
-            found.setdefault(settings, {})[recipient] = message
-        return found
+        found: defaultdict[str, dict[int, int]] = defaultdict(dict)
+        for text, recipient, message in self._sql.execute(
+            "SELECT copies.recipe, recipients.id, recipients.message "
+            "FROM copies JOIN recipients ON recipients.id = copies.recipient"
+        ):
+            found[text][recipient] = message
+        return {Settings(**json.loads(text)): dict(sorted(found[text].items())) for text in sorted(found)}
 
     def files(self) -> set[str]:
         """The names of all copies."""

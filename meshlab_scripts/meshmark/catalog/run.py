@@ -11,15 +11,16 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-
-import dask
-from dask.distributed import Client, LocalCluster, as_completed
+from typing import TYPE_CHECKING
 
 from ..errors import MeshmarkError
 from ..settings import Settings
 from .ledger import Copy, Ledger
 from .plan import Job, Order, Track, enter_models, missing_jobs
 from .work import Made, make, sweep
+
+if TYPE_CHECKING:
+    from dask.distributed import Client
 
 Tick = Callable[[int, int], None]  # how many are done, of how many
 
@@ -107,6 +108,8 @@ def forecast(order: Order, ledger_file: Path, *, workers: int = 0, track: Track 
 
 
 def _run(jobs: list[Job], ledger: Ledger, outcome: Outcome, scheduler: str | None, workers: int, tick: Tick) -> None:
+    from dask.distributed import as_completed
+
     by_name = {job.name: job for job in jobs}
     run = secrets.token_hex(4)
     lost = 0
@@ -172,7 +175,10 @@ def _alone(folder: Path) -> Iterator[None]:
 
 
 @contextmanager
-def _client(scheduler: str | None, workers: int) -> Iterator[Client]:
+def _client(scheduler: str | None, workers: int) -> "Iterator[Client]":
+    import dask  # takes longer to load than most commands need
+    from dask.distributed import Client, LocalCluster
+
     if scheduler:
         with Client(scheduler) as client:
             yield client

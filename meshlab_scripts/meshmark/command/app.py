@@ -15,7 +15,6 @@ PRESENT, ABSENT, ERROR = 0, 1, 2
 
 app = typer.Typer(
     name="meshmark",
-    help=__doc__,
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},

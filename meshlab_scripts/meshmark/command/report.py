@@ -8,7 +8,6 @@ import typer
 from rich.markup import escape
 
 from ..catalog import Ledger
-from ..evidence import write_page
 from ..key import find_key
 from ..plugin import reads_with_original
 from ..tracing import trace
@@ -35,6 +34,8 @@ def report(
 
     Exit codes as those of trace.
     """
+    from ..evidence import write_page  # matplotlib takes longer to load than all other commands need
+
     with busy(f"Reading {found.name}"), Ledger(ledger) as opened:
         result = trace(found, opened, find_key(None, key_file), original if reads_with_original() else None)
         page = out or found.with_suffix(".html")

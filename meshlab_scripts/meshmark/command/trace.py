@@ -25,7 +25,8 @@ def _trace(
     found: Annotated[Path, typer.Argument(metavar="FOUND", help="The file that turned up.", show_default=False)],
     ledger: Annotated[Path, typer.Option("--ledger", "-l", help="Of the catalogue.")] = Path("ledger.sqlite"),
     original: Annotated[
-        Path | None, typer.Option("--original", help="Folder of the unmarked models: reads parts and bent copies, too.")
+        Path | None,
+        typer.Option("--original", help="Folder of unmarked models: reads parts, too."),
     ] = None,
     key_file: KeyFile = None,
     as_json: AsJson = False,

@@ -27,7 +27,6 @@ from .likeness import Likeness, nearest, ranked
 PROVEN = 1e-6  # below it somebody is named
 DOUBT = 1e-2  # below it "nobody" is not said either
 REGISTERED = 2  # pieces, besides the whole, that are laid on originals
-ORIGINALS = 8  # that are tried with each of these
 ANOTHER_KEY = 3  # DetectReport.finding
 
 
@@ -112,13 +111,14 @@ def trace(found: Path, ledger: Ledger, key: Key, originals: Path | None = None) 
     :raises MeshmarkError: where the ledger is empty, its copies were marked with another key, or the plugin cannot
         read with an original
     """
-    if ledger.key_check is None or not ledger.done():
+    if ledger.key_check is None or ledger.empty:
         raise MeshmarkError(f"The ledger '{ledger.path}' has no copies yet.")
     ledger.require(key)
     parts = pieces(read_body(found))
     models = ledger.models()
     likes = {piece.name: nearest(piece, models) for piece in parts}
-    attempts = [_Attempt(piece, settings, group) for piece in parts for settings, group in _candidates(ledger)]
+    groups = ledger.candidates()
+    attempts = [_Attempt(piece, settings, group) for piece in parts for settings, group in groups.items()]
     if originals is not None:
         files = _originals(originals, models)
         attempts += [
@@ -127,7 +127,8 @@ def trace(found: Path, ledger: Ledger, key: Key, originals: Path | None = None) 
             if attempt.piece in parts[: 1 + REGISTERED]
             for model in _likely_first(attempt.piece, models, files)
         ]
-    return _judge(list(_readings(attempts, key)), len(attempts), likes, ledger)
+    candidates = len(set().union(*groups.values()))
+    return _judge(list(_readings(attempts, key)), len(attempts), likes, ledger, candidates)
 
 
 @dataclass(frozen=True)
@@ -162,13 +163,8 @@ def _originals(folder: Path, models: list[Model]) -> dict[int, Path]:
 
 
 def _likely_first(piece: Piece, models: list[Model], files: dict[int, Path]) -> list[Model]:
-    """The originals that are tried with a piece; a part is like none, so the nearest few are taken."""
-    return [like.model for like in ranked(piece, models) if like.model.id in files][:ORIGINALS]
-
-
-def _candidates(ledger: Ledger) -> list[tuple[Settings, dict[int, int]]]:
-    """Recipients and their messages, for each recipe that the ledger's copies were made with."""
-    return list(ledger.candidates().items())
+    """The models whose originals are tried with a piece; a part is like none, so all are, the nearest first."""
+    return [like.model for like in ranked(piece, models) if like.model.id in files]
 
 
 def _read(attempt: _Attempt, key: Key) -> Reading:
@@ -192,7 +188,9 @@ def _read(attempt: _Attempt, key: Key) -> Reading:
     )
 
 
-def _judge(readings: list[Reading], tries: int, likes: dict[str, Likeness | None], ledger: Ledger) -> Trace:
+def _judge(
+    readings: list[Reading], tries: int, likes: dict[str, Likeness | None], ledger: Ledger, candidates: int
+) -> Trace:
     best = min(readings, key=lambda one: one.p)
     p = min(1.0, best.p * tries)
     proven = p < PROVEN
@@ -202,7 +200,7 @@ def _judge(readings: list[Reading], tries: int, likes: dict[str, Likeness | None
         like = min(near, key=lambda one: one.difference, default=like)
     facts = {"p": p, "likeness": like, "model": like.model.name if like and like.alike else None,
              "piece": best.piece, "readings": readings, "tries": tries, "ledger": str(ledger.path),
-             "candidates": len({one for group in ledger.candidates().values() for one in group})}  # fmt: skip
+             "candidates": candidates}  # fmt: skip
     if proven:
         return _named(best, ledger, tries, facts)
     reports = [one.report for one in readings if one.report]
@@ -247,10 +245,10 @@ def _doubtful_shape(like: Likeness | None) -> str:
 
 
 def _named(best: Reading, ledger: Ledger, tries: int, facts: dict[str, object]) -> Trace:
-    name = ledger.recipients()[best.recipient][0]
+    name = ledger.name(best.recipient)
     like: Likeness | None = facts["likeness"]
     model = best.original or (like.model if like and like.alike else None)
-    has = model is not None and (model.id, best.recipient) in ledger.done()
+    has = model is not None and ledger.has(model.id, best.recipient)
     what = f"'{model.name}'" if has else "a model (by its shape it is none that this recipient has)"
     where = "" if best.piece == "the whole file" else f" In {best.piece}."
     text = f"{name}: it is the copy of {what} for this recipient (p {_p(facts['p'])}).{where}"
