@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pymeshlab
 import pytest
-from doors import DETECT, DETECT_WITH_ORIGINAL, DOORS, EMBED, MESHES, PyMeshLab, Refused, Value
+from doors import DETECT_WITH_ORIGINAL, DOORS, EMBED, MESHES, PyMeshLab, Refused, Value
 
 KEY = "correct horse battery staple"
 MESSAGE = "(c) 2026"
@@ -35,7 +35,6 @@ def piece(marked: Path) -> Path:
 
 def test_a_piece_is_read_through_every_door(piece: Path) -> None:
     asked: dict[str, Value] = {"Key": KEY, "Expected": MESSAGE}
-    assert PyMeshLab().run(DETECT, piece, **asked)["present"] is False
     reports = {
         name: door().run(DETECT_WITH_ORIGINAL, piece, before=ORIGINAL, Original=0, **asked)
         for name, door in DOORS.items()
@@ -70,8 +69,3 @@ def test_bad_choices_of_the_original_are_named(marked: Path) -> None:
         door.run(DETECT_WITH_ORIGINAL, marked, before=ORIGINAL, Original=1, Key=KEY)
     with pytest.raises(Refused, match="carries a mark of this key itself"):
         door.run(DETECT_WITH_ORIGINAL, ORIGINAL, before=marked, Original=0, Key=KEY, Expected=MESSAGE)
-    other = door.run(
-        DETECT_WITH_ORIGINAL, MESHES / "fandisk.off", before=ORIGINAL, Original=0, Key=KEY, Expected=MESSAGE
-    )
-    assert other["registration"]["found"] is False
-    assert "not a copy of this original" in str(other["verdict"])

@@ -95,7 +95,10 @@ def test_the_scripts_for_users(tmp_path: Path) -> None:
     detected = door.arguments("-i", output, "-s", scripts / "detect.mlx", **environment)
     assert detected.returncode == 0, detected.stdout
     assert "present: true" in detected.stdout
-    assert KEY not in embedded.stdout + detected.stdout
+    beside = door.arguments("-i", BUNNY, output, "-s", scripts / "detect_with_original.mlx", **environment)
+    assert beside.returncode == 0, beside.stdout
+    assert "present: true" in beside.stdout
+    assert KEY not in embedded.stdout + detected.stdout + beside.stdout
 
 
 FAILURES: list[tuple[str, dict[str, Value], str]] = [

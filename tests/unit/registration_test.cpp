@@ -5,7 +5,6 @@
 #include "support/shapes.h"
 #include "vcg_ext/attack/affine.h"
 #include "vcg_ext/attack/crop.h"
-#include "vcg_ext/base/parallel.h"
 #include "vcg_ext/geometry/icp.h"
 #include "vcg_ext/key/random.h"
 
@@ -118,19 +117,4 @@ TEST(Registration, FindsAPieceByItsShapes)
     EXPECT_STREQ(found.by, "features");
     EXPECT_NEAR(found.scale(), 2.5, 1e-4);
     EXPECT_LT(found.residual, 1e-6);
-}
-
-TEST(Registration, IsTheSameAtAnyNumberOfThreads)
-{
-    const Surface original = load("fandisk.off");
-    const FootSearch feet(original);
-    const Registrar registrar(feet);
-    const Surface piece = moved_far(crop(original, 0.2, 1));
-    set_threads(1);
-    const Registration one = registrar(piece);
-    set_threads(3);
-    const Registration three = registrar(piece);
-    set_threads(0);
-    EXPECT_EQ(one.affine.matrix(), three.affine.matrix());
-    EXPECT_EQ(one.residual, three.residual);
 }

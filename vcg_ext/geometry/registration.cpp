@@ -57,13 +57,6 @@ Scored scored(const FootSearch& original, double size, const Points& points, int
     return result;
 }
 
-/// A frame and a length, by which two surfaces can be laid on each other.
-struct Stand {
-    Point centre;
-    Eigen::Matrix3d axes;
-    double length;
-};
-
 /// Centre, axes and square root of the area; exact moments of triangles.
 Stand surface_stand(const Surface& surface)
 {
@@ -234,10 +227,9 @@ double Registration::scale() const
     return 1 / std::cbrt(std::abs(pose.linear().determinant()));
 }
 
-Registrar::Registrar(const FootSearch& original) : original_(original)
+Registrar::Registrar(const FootSearch& original) : original_(original), solid_(solid_stand(original.surface()))
 {
-    const double solid = solid_stand(original.surface()).length;
-    size_ = solid > 0 ? solid : std::sqrt(surface_area(original.surface()) / (4 * pi));
+    size_ = solid_.length > 0 ? solid_.length : std::sqrt(surface_area(original.surface()) / (4 * pi));
 }
 
 void Registrar::refine(const Surface& surface, Registration& registration) const
@@ -282,7 +274,7 @@ Registration Registrar::operator()(const Surface& surface, const Progress& progr
     std::vector<Scored> found = polished(original_, size_, samples, hypotheses);
     const Stand own = surface_stand(surface);
     if (found.empty() || !(found.front().score < sure)) {
-        add_poses("volume", solid_stand(surface), solid_stand(original_.surface()), hypotheses);
+        add_poses("volume", solid_stand(surface), solid_, hypotheses);
         add_poses("surface", own, surface_stand(original_.surface()), hypotheses);
         report(progress, 10, "Registering");
         found = polished(original_, size_, samples, hypotheses);

@@ -28,6 +28,13 @@ struct Registration {
     [[nodiscard]] double scale() const;
 };
 
+/// A frame and a length, by which two surfaces can be laid on each other; a length of 0 where there is no such.
+struct Stand {
+    Point centre = Point::Zero();
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+    double length = 0;
+};
+
 /// Registers surfaces to one original. Never draws on anything but the two shapes; the work is bounded by counts of
 /// trials and not by a clock, so the answer is the same everywhere.
 class Registrar {
@@ -62,6 +69,7 @@ public:
 
 private:
     const FootSearch& original_;
+    Stand solid_; ///< of the original
     double size_ = 0;
 };
 

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 
 namespace vcg_ext {
@@ -117,14 +118,42 @@ struct Trial {
     std::shared_ptr<const FootSearch> feet;
 };
 
-/// The number of rounds that brings the original nearest to the copy, 0 where none does to speak of: up a ladder as
-/// long as it falls, then by halving. Never looks at waves.
+/// Whether a copy lies nearer to what a few rounds of smoothing make of the original, to first order: a look that needs
+/// no search of its own. Its distances without the farthest twentieth, those left over those as they are.
+bool seems_smoothed(const Copy& copy, const Registration& registration, const Points& later)
+{
+    constexpr double gain = 0.97;
+    constexpr int count = 1500;
+    const FootSearch& original = copy.registrar.original();
+    const SurfaceSamples samples = sample_surface(copy.surface, count, "smoothing");
+    std::vector<double> plain;
+    std::vector<double> explained;
+    for (const Point& sample : samples.points) {
+        const Point p = registration.affine * sample;
+        const Foot foot = original(p, reach * copy.registrar.size());
+        if (foot.face < 0 || foot.on_rim)
+            continue;
+        const Point& n = original.normals()[foot.face];
+        const Triangle& t = original.surface().triangles[foot.face];
+        const double distance = n.dot(p - foot.point);
+        plain.push_back(std::abs(distance));
+        explained.push_back(std::abs(distance - n.dot(at_foot(later, t, foot.weights) - foot.point)));
+    }
+    const auto mean_of_most = [](std::vector<double> values) {
+        std::sort(values.begin(), values.end());
+        values.resize(values.size() * 19 / 20);
+        return std::accumulate(values.begin(), values.end(), 0.0);
+    };
+    return mean_of_most(explained) < gain * mean_of_most(plain);
+}
+
+/// The number of rounds that brings the original nearest to the copy: up a ladder as long as it falls, then by halving.
+/// Never looks at waves.
 template <class Try>
 int best_rounds(const Try& residual)
 {
-    constexpr double gain = 0.97;
     const std::array<int, 7> ladder = {0, 3, 8, 20, 50, 120, 300};
-    if (residual(3) > gain * residual(0))
+    if (residual(3) > residual(0))
         return 0;
     std::size_t i = 1;
     while (i + 1 < ladder.size() && residual(ladder[i + 1]) < residual(ladder[i]))
@@ -175,7 +204,8 @@ WaveCopy::WaveCopy(const Copy& copy)
         Registrar(feet, copy.registrar.size()).follow(copy.surface, trial.registration);
         return (trials[rounds] = std::move(trial)).registration.residual;
     };
-    const int rounds = best_rounds(residual);
+    const bool smooth = seems_smoothed(copy, copy.registration, in_mesh(body_, sewn, smoothed(3)).points);
+    const int rounds = smooth ? best_rounds(residual) : 0;
     State plain;
     plain.registration = copy.registration;
     if (rounds == 0) {
