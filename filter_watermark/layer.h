@@ -2,7 +2,7 @@
 #pragma once
 #include "host.h"
 
-#include <vcg_ext/base/surface.h>
+#include <vcg_ext/geometry/corner_values.h>
 
 /// The current layer. \throw vcg_ext::Error where the document has none
 MeshModel& current_layer_or_error(MeshDocument& document);
@@ -12,6 +12,14 @@ vcg_ext::Surface read_surface(const CMeshO& mesh);
 
 /// Gives the vertices that are not deleted new positions, in order. All else stays; normals and box follow.
 void write_positions(MeshModel& layer, const vcg_ext::Points& points);
+
+/// What the layer's faces show that must not slide along with the vertices under it: colours and quality of vertices,
+/// texture coordinates of vertices and wedges. No channels where it has none of these.
+vcg_ext::CornerValues read_corner_values(MeshModel& layer);
+void write_corner_values(MeshModel& layer, const vcg_ext::CornerValues& values);
+
+/// Whether the layer has texture coordinates.
+bool has_texture(const MeshModel& layer);
 
 /// Gives the vertices that are not deleted a quality each, in order, and colours from it: a colour of its own for each
 /// whole number, grey for -1.
