@@ -177,11 +177,24 @@ void write_classes(MeshModel& layer, const std::vector<int>& class_of_vertex)
     });
 }
 
-void write_distances(MeshModel& layer, const std::vector<double>& distance_of_vertex)
+void write_distances(MeshModel& layer, const std::vector<double>& distance_of_vertex, double most)
 {
-    layer.updateDataMask(MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR);
+    const bool colored = layer.hasDataMask(MeshModel::MM_VERTCOLOR);
+    layer.updateDataMask(MeshModel::MM_VERTQUALITY);
     for_each_vertex(layer, distance_of_vertex, [](CVertexO& vertex, double distance) { vertex.Q() = distance; });
-    vcg::tri::UpdateColor<CMeshO>::PerVertexQualityRamp(layer.cm);
+    if (colored)
+        return;
+    layer.updateDataMask(MeshModel::MM_VERTCOLOR);
+    vcg::tri::UpdateColor<CMeshO>::PerVertexQualityRamp(layer.cm, 0, Scalarm(most));
+}
+
+MeshModel& add_copy(MeshDocument& document, const MeshModel& layer, const QString& label)
+{
+    const vcg_ext::Surface surface = read_surface(layer.cm);
+    MeshModel& copy = *document.addNewMesh(QString(), label, false);
+    write_surface(copy, surface);
+    copy.cm.Tr = layer.cm.Tr;
+    return copy;
 }
 
 void write_surface(MeshModel& layer, const vcg_ext::Surface& surface)

@@ -25,8 +25,12 @@ bool has_texture(const MeshModel& layer);
 /// whole number, grey for -1.
 void write_classes(MeshModel& layer, const std::vector<int>& class_of_vertex);
 
-/// Gives the vertices that are not deleted a quality each, in order, and the colour ramp of it.
-void write_distances(MeshModel& layer, const std::vector<double>& distance_of_vertex);
+/// Gives the vertices that are not deleted a quality each, in order, and colours from red for 0 to blue for `most` and
+/// more; a layer that has colours keeps them.
+void write_distances(MeshModel& layer, const std::vector<double>& distance_of_vertex, double most);
+
+/// A copy of the layer's shape, with its matrix, in a new layer, which does not become the current one.
+MeshModel& add_copy(MeshDocument& document, const MeshModel& layer, const QString& label);
 
 /// Puts another mesh into the layer, whose name and matrix stay.
 void write_surface(MeshModel& layer, const vcg_ext::Surface& surface);

@@ -304,12 +304,28 @@ def test_carriers_are_shown(marked: Path) -> None:
     meshes = opened(marked)
     positions = meshes.current_mesh().vertex_matrix()
     found = PyMeshLab().apply(meshes, DETECT, Key=KEY, ShowCarriers=True)
-    carrier = meshes.current_mesh().vertex_scalar_array().astype(int)
+    assert not meshes.current_mesh().has_vertex_scalar()  # what goes out with the mesh does not tell
+    assert not meshes.current_mesh().has_vertex_color()
+    shown = meshes.mesh(1)
+    assert shown.label().startswith("secret")
+    np.testing.assert_array_equal(shown.vertex_matrix(), positions)
+    carrier = shown.vertex_scalar_array().astype(int)
     assert list(np.bincount(carrier[carrier >= 0], minlength=64)) == found["samples"]
-    colors = meshes.current_mesh().vertex_color_matrix()
+    colors = shown.vertex_color_matrix()
     for number in (-1, 0, 63):
         assert distinct(colors[carrier == number]) == 1
     np.testing.assert_array_equal(meshes.current_mesh().vertex_matrix(), positions)
+
+
+def test_measuring_takes_the_other_layer_and_keeps_colours(marked: Path) -> None:
+    meshes = opened(FANDISK, marked)
+    meshes.compute_color_by_function_per_vertex(x="200", y="100", z="50")
+    colors = meshes.current_mesh().vertex_color_matrix().copy()
+    assert meshes.apply_filter("get_watermark_distortion")["mrms"] > 0
+    np.testing.assert_array_equal(meshes.current_mesh().vertex_color_matrix(), colors)
+    with pytest.raises(pymeshlab.PyMeshLabException, match="layer that is measured"):
+        meshes.apply_filter("get_watermark_distortion", reference=1)
+    PyMeshLab.failed.append(meshes)
 
 
 def test_a_decimal_comma_does_not_matter(tmp_path: Path) -> None:
