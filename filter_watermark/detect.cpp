@@ -14,15 +14,16 @@ constexpr const char* info =
     "<i>p_value</i> (with <b>Expected message</b>) and <i>p_message</i> (without) are true upper bounds of the "
     "probability that an unmarked mesh, or another key, reads as well by chance; below 1e-6 a mark counts as found.<br>"
     "Method, Statistic and Trim must be those of embedding; Bits too, unless it is 0. The mesh stays as it is; <b>Show "
-    "carriers</b> gives its vertices the number of the carrier that they are in as quality, and a colour for each.";
+    "carriers</b> makes a new layer, whose vertices have the number of the carrier that they are in as quality, and a "
+    "colour for each. It shows what only the key should tell: do not publish it.";
 
 RichParameterList parameters(const MeshDocument&)
 {
     RichParameterList list;
     add_carrier_parameters(list, "Number of carriers that the mark was embedded with, 1 to 1024; 0 finds it.");
     add_expected_parameter(list);
-    list.addParam(
-        RichBool("ShowCarriers", false, "Show carriers", "Colours the vertices by the carrier that they are in."));
+    list.addParam(RichBool("ShowCarriers", false, "Show carriers",
+                           "A new layer, coloured by carrier; it is as secret as the key."));
     add_report_parameter(list);
     return list;
 }
@@ -43,7 +44,7 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
         results["warnings"].push_back("There are no carriers to show: those of this method are no sets of vertices.");
     file.write(results);
     if (shows && !report.carrier_of_vertex.empty())
-        write_classes(layer, report.carrier_of_vertex);
+        write_classes(add_copy(document, layer, "secret: carriers of " + layer.label()), report.carrier_of_vertex);
     return results;
 }
 
@@ -53,7 +54,7 @@ const Filter detect_filter = {"Watermark: Detect",
                               "get_watermark",
                               HostInterface::Measure,
                               HostInterface::SINGLE_MESH,
-                              MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR,
+                              MeshModel::MM_NONE,
                               info,
                               parameters,
                               run};

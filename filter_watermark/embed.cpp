@@ -2,6 +2,8 @@
 #include <vcg_ext/base/progress.h>
 #include <vcg_ext/carrier/statistic.h>
 
+#include <optional>
+
 #include "layer.h"
 #include "report.h"
 #include "shared_parameters.h"
@@ -12,7 +14,8 @@ constexpr const char* info =
     "Hides a message in the shape of the mesh, so that it cannot be seen. <b>Watermark: Detect</b> reads it back with "
     "the key alone, without the original, also after noise, smoothing, simplification, remeshing, quantization, and any "
     "rotation, translation or uniform scale.<br>"
-    "The whole mesh carries the mark: a selection is ignored, and kept. Only positions change (and normals with them). "
+    "The whole mesh carries the mark: a selection is ignored, and kept. Only positions change; colours, "
+    "texture and quality stay where they were on the surface while vertices slide under them. "
     "Vertices at one position move together, so seams stay closed. The filter ends with a blind detection of its own and "
     "fails, with the mesh unchanged, where a bit would not read back.<br>"
     "Keep the key secret, and note the recipe that the log ends with: detection needs the same settings.<br>"
@@ -77,8 +80,16 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
         rehearsals = rehearse(surface, key, options.carriers, options.message, vcg_ext::within(progress, 50, 100));
     }
     Json report = to_json(embedded, rehearsals);
+    const vcg_ext::CornerValues shown = read_corner_values(layer);
+    std::optional<vcg_ext::CarriedValues> carried;
+    if (shown.channels > 0)
+        carried = carried_values(read_surface(layer.cm), shown, surface.points);
+    if (carried && has_texture(layer))
+        report["texture_stretch"] = carried->stretch;
     file.write(report);
     write_positions(layer, surface.points);
+    if (carried)
+        write_corner_values(layer, carried->values);
     return report;
 }
 
@@ -88,7 +99,9 @@ const Filter embed_filter = {"Watermark: Embed",
                              "apply_coord_watermark",
                              HostInterface::Smoothing,
                              HostInterface::SINGLE_MESH,
-                             MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL | MeshModel::MM_FACENORMAL,
+                             MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL | MeshModel::MM_FACENORMAL |
+                                 MeshModel::MM_VERTCOLOR | MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTTEXCOORD |
+                                 MeshModel::MM_WEDGTEXCOORD,
                              info,
                              parameters,
                              run};

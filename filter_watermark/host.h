@@ -162,17 +162,27 @@ inline const MeshModel* current_layer(const MeshDocument& document)
 #endif
 }
 
-/// A parameter that names a layer; the current one is preset.
+/// A parameter that names a layer; one that is not the current one is preset where there is any.
 inline RichMesh layer_parameter(const QString& name, const MeshDocument& document, const QString& label,
                                 const QString& tip)
 {
-    const MeshModel* current = current_layer(document);
+    const MeshModel* preset = current_layer(document);
 #if MESHLAB_YEAR < 2021
     MeshDocument* list = const_cast<MeshDocument*>(&document);
-    return current ? RichMesh(name, const_cast<MeshModel*>(current), list, label, tip)
-                   : RichMesh(name, 0, list, label, tip);
+    for (MeshModel* other : list->meshList)
+        if (other != preset) {
+            preset = other;
+            break;
+        }
+    return preset ? RichMesh(name, const_cast<MeshModel*>(preset), list, label, tip)
+                  : RichMesh(name, 0, list, label, tip);
 #else
-    return {name, current ? unsigned(current->id()) : 0, &document, label, tip};
+    for (auto other = document.meshBegin(); other != document.meshEnd(); ++other)
+        if (&*other != preset) {
+            preset = &*other;
+            break;
+        }
+    return {name, preset ? unsigned(preset->id()) : 0, &document, label, tip};
 #endif
 }
 

@@ -12,7 +12,8 @@ constexpr const char* info =
     "Compares the current layer with a reference: MRMS, Hausdorff and mean distance as Metro takes them (also relative "
     "to the "
     "reference's bounding-box diagonal), signal to noise, the perceptual distance MSDM, changes of volume and area.<br>"
-    "The vertices get their distance to the reference as quality, and a colour from it: red is near, blue is far. "
+    "The vertices get their distance to the reference as quality, and a colour from it, unless they have one: red is near, "
+    "blue a thousandth of the diagonal or more. "
     "Layers are compared as they lie in their files, without their matrices.<br>"
     "See:<br><i>Paolo Cignoni, Claudio Rocchini, Roberto Scopigno</i><br><b>\"Metro: measuring error on simplified "
     "surfaces\"</b>"
@@ -39,13 +40,21 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
     vcg_ext::DistortionOptions options;
     options.samples = values.getInt("Samples");
     options.seed = read_seed(values);
+    if (reference == &layer)
+        throw vcg_ext::Error("Reference is the layer that is measured. Open the other mesh too, or choose its layer.");
     ReportFile file(values.getSaveFileName("Report"));
 
     const vcg_ext::DistortionReport report =
         measure(read_surface(reference->cm), read_surface(layer.cm), options, progress);
     Json results = to_json(report);
+    constexpr double plain = 1e-3; // of the diagonal: nobody would overlook that
+    const double diagonal = report.mrms_relative > 0 ? report.mrms / report.mrms_relative : 1;
+    results["colors"] = QString("red is 0, blue is %1 (a thousandth of the diagonal) and more; colours that the layer "
+                                "had are kept, and distances are its vertices' quality.")
+                            .arg(plain * diagonal, 0, 'g', 3)
+                            .toStdString();
     file.write(results);
-    write_distances(layer, report.distance);
+    write_distances(layer, report.distance, plain * diagonal);
     return results;
 }
 

@@ -58,10 +58,10 @@ void add_carrier_parameters(RichParameterList& list, const QString& bits_tip)
         RichEnum("Statistic", 0, choice_names(statistics), "Statistic",
                  "What a carrier's values tell: their mean, or their variance (less visible, less robust). Detection "
                  "needs the same one. Spectral ignores it."));
-    list.addParam(
-        RichString("Key", "", "Secret key",
-                   "A passphrase, or <i>file:PATH</i> for a file's bytes, or <i>env:NAME</i> for an environment "
-                   "variable. The last two keep it out of scripts, histories and project files."));
+    list.addParam(RichString(
+        "Key", "", "Secret key",
+        "A passphrase, or <i>file:PATH</i> for a file's bytes (less a line end at its end), or <i>env:NAME</i> for an environment "
+        "variable. The last two keep it out of scripts, histories and project files."));
     list.addParam(RichInt("Bits", 0, "Bits", bits_tip));
     list.addParam(RichFloat(
         "Trim", -1, "Trim",

@@ -48,7 +48,7 @@ def main() -> None:
     meshes = opened()
     original, faces = meshes.current_mesh().vertex_matrix(), meshes.current_mesh().face_matrix()
     meshes.apply_filter("get_watermark", showcarriers=True, **MARK)
-    strips = meshes.current_mesh().vertex_color_matrix()[:, :3]
+    strips = meshes.mesh(1).vertex_color_matrix()[:, :3]
     view = rotation(options.yaw, options.pitch).T
 
     figure, axes = plt.subplots(1, 4, figsize=(16, 4.2), layout="constrained")

@@ -114,7 +114,7 @@ def main() -> None:
         states[f"message {bit}..."] = marked(arguments.mesh, arguments.key, bit)
     reader = states["message 0..."]
     reader.apply_filter(plugin.DETECT, method="Spectral", bits=BITS, trim=TRIM, key=arguments.key, showcarriers=True)
-    labels = reader.current_mesh().vertex_scalar_array().astype(int)
+    labels = reader.mesh(1).vertex_scalar_array().astype(int)
     faces = reader.current_mesh().face_matrix()
     draw_patches(reader.current_mesh().vertex_matrix(), faces, labels, arguments.output / "figure-3.2.png")
 

@@ -205,17 +205,13 @@ def test_no_mesh_and_an_empty_mesh_are_refused() -> None:
 def test_all_else_of_the_users_stays(tmp_path: Path) -> None:
     meshes = opened(FANDISK, BUNNY)
     meshes.set_current_mesh(0)
-    meshes.compute_color_by_function_per_vertex(x="x*50", y="100", z="y*50")
-    meshes.compute_scalar_by_function_per_vertex(q="z")
     meshes.compute_selection_by_condition_per_vertex(condselect="x < 0.1")
-    meshes.compute_texcoord_by_function_per_vertex(u="x", v="y")
     meshes.compute_matrix_from_rotation(rotaxis="Z axis", angle=30, freeze=False)
 
     def rest() -> list[np.ndarray]:
         mesh = meshes.mesh(0)
         return [
-            mesh.face_matrix(), mesh.vertex_color_matrix(), mesh.vertex_scalar_array(), mesh.vertex_selection_array(),
-            mesh.vertex_tex_coord_matrix(), mesh.transform_matrix(), meshes.mesh(1).vertex_matrix(),
+            mesh.face_matrix(), mesh.vertex_selection_array(), mesh.transform_matrix(), meshes.mesh(1).vertex_matrix(),
         ]  # fmt: skip
 
     before, positions, box = rest(), meshes.mesh(0).vertex_matrix(), meshes.mesh(0).bounding_box().diagonal()
@@ -234,6 +230,34 @@ def test_all_else_of_the_users_stays(tmp_path: Path) -> None:
     normals = normals[long] / np.linalg.norm(normals[long], axis=1)[:, None]
     turned = normals @ moved.transform_matrix()[:3, :3].T  # pymeshlab hands out normals with the layer's matrix applied
     np.testing.assert_allclose(moved.face_normal_matrix()[long], turned, atol=1e-6)
+
+
+def test_what_is_painted_on_the_surface_stays_where_it_was() -> None:
+    """Vertices slide along the surface, and what they show is that of the place where they are now."""
+    meshes = opened(FANDISK)
+    old = meshes.current_mesh().vertex_matrix()
+    size = np.linalg.norm(np.ptp(old, axis=0))
+    meshes.compute_scalar_by_function_per_vertex(q="z")
+    meshes.compute_texcoord_by_function_per_vertex(u="x", v="y")
+    meshes.compute_color_by_function_per_vertex(x=f"128+100*x/{size}", y="100", z="7")
+    report = PyMeshLab().apply(meshes, EMBED, **MARK)
+    mesh = meshes.current_mesh()
+    new = mesh.vertex_matrix()
+    moved = np.abs(new - old).mean(axis=0)
+    off = np.abs(np.column_stack([mesh.vertex_tex_coord_matrix(), mesh.vertex_scalar_array()]) - new).mean(axis=0)
+    assert (off < 0.1 * moved).all()
+    colors = mesh.vertex_color_matrix() * 255
+    assert np.abs(colors[:, 0] - (128 + 100 * new[:, 0] / size)).max() < 1.5
+    np.testing.assert_allclose(colors[:, 1:3], np.broadcast_to([100, 7], (len(new), 2)), atol=1e-6)
+    assert report["texture_stretch"] < 1.1
+
+
+def test_a_mesh_without_colours_gets_none() -> None:
+    meshes = opened(FANDISK)
+    report = PyMeshLab().apply(meshes, EMBED, **MARK)
+    assert "texture_stretch" not in report
+    assert not meshes.current_mesh().has_vertex_color()
+    assert not meshes.current_mesh().has_vertex_scalar()
 
 
 def test_deleted_elements_do_not_count() -> None:
@@ -280,12 +304,28 @@ def test_carriers_are_shown(marked: Path) -> None:
     meshes = opened(marked)
     positions = meshes.current_mesh().vertex_matrix()
     found = PyMeshLab().apply(meshes, DETECT, Key=KEY, ShowCarriers=True)
-    carrier = meshes.current_mesh().vertex_scalar_array().astype(int)
+    assert not meshes.current_mesh().has_vertex_scalar()  # what goes out with the mesh does not tell
+    assert not meshes.current_mesh().has_vertex_color()
+    shown = meshes.mesh(1)
+    assert shown.label().startswith("secret")
+    np.testing.assert_array_equal(shown.vertex_matrix(), positions)
+    carrier = shown.vertex_scalar_array().astype(int)
     assert list(np.bincount(carrier[carrier >= 0], minlength=64)) == found["samples"]
-    colors = meshes.current_mesh().vertex_color_matrix()
+    colors = shown.vertex_color_matrix()
     for number in (-1, 0, 63):
         assert distinct(colors[carrier == number]) == 1
     np.testing.assert_array_equal(meshes.current_mesh().vertex_matrix(), positions)
+
+
+def test_measuring_takes_the_other_layer_and_keeps_colours(marked: Path) -> None:
+    meshes = opened(FANDISK, marked)
+    meshes.compute_color_by_function_per_vertex(x="200", y="100", z="50")
+    colors = meshes.current_mesh().vertex_color_matrix().copy()
+    assert meshes.apply_filter("get_watermark_distortion")["mrms"] > 0
+    np.testing.assert_array_equal(meshes.current_mesh().vertex_color_matrix(), colors)
+    with pytest.raises(pymeshlab.PyMeshLabException, match="layer that is measured"):
+        meshes.apply_filter("get_watermark_distortion", reference=1)
+    PyMeshLab.failed.append(meshes)
 
 
 def test_a_decimal_comma_does_not_matter(tmp_path: Path) -> None:

@@ -106,6 +106,15 @@ TEST(KeyFromText, ReadsFileAndEnvironment)
     const std::uint64_t expected = key_from_text("correct horse").stream("epsilon").next();
     EXPECT_EQ(key_from_text("file:" + path).stream("epsilon").next(), expected);
     EXPECT_EQ(key_from_text("env:KEY_TEST_SECRET").stream("epsilon").next(), expected);
+    const auto from_file = [&](const char* text) {
+        std::FILE* other = std::fopen(path.c_str(), "wb");
+        std::fputs(text, other);
+        std::fclose(other);
+        return key_from_text("file:" + path).stream("epsilon").next();
+    };
+    EXPECT_EQ(from_file("correct horse\n"), expected); // as editors end a line
+    EXPECT_EQ(from_file("correct horse\r\n"), expected);
+    EXPECT_NE(from_file("correct horse\n\n"), expected);
     std::remove(path.c_str());
 }
 

@@ -62,6 +62,9 @@ Secret read_file(const std::string& path)
         file.read(bytes.data() + size, piece);
         bytes.resize(size + file.gcount());
     }
+    for (const char end : {'\n', '\r'}) // editors end the last line, and differ in how
+        if (!bytes.empty() && bytes.back() == end)
+            bytes.pop_back();
     if (bytes.empty())
         throw Error("The key file '" + path + "' is empty. Write the secret into it, or name another.");
     return bytes;

@@ -141,7 +141,7 @@ void compare_sizes(const Pair& pair, DistortionReport& result)
     const double before = surface_area(pair.reference);
     result.area_change = (surface_area(pair.measured) - before) / before;
     if (!is_closed_and_oriented(pair.reference) || !is_closed_and_oriented(pair.measured)) {
-        result.warnings.emplace_back("No change of volume: a mesh is open, or its faces are not oriented alike.");
+        result.warnings.emplace_back("Volume not compared: a mesh is open, or its faces are not oriented alike.");
         return;
     }
     const Point centre = pair.reference.points[0];
@@ -149,7 +149,7 @@ void compare_sizes(const Pair& pair, DistortionReport& result)
     if (std::abs(volume) > 1e-12 * before * bounding_diagonal(pair.reference))
         result.volume_change = (signed_volume(pair.measured, centre) - volume) / volume;
     else
-        result.warnings.emplace_back("No change of volume: the reference mesh encloses none.");
+        result.warnings.emplace_back("Volume not compared: the reference mesh encloses none.");
 }
 
 } // namespace
