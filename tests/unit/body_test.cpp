@@ -167,10 +167,11 @@ TEST_P(Marks, BearWhatHappensToSingleTriangles)
     EXPECT_EQ(found.loose_pieces, 30);
 }
 
-TEST_P(Marks, BearHolesBeingFilled)
+/// Waves feels the volume between one filling and another.
+class MarksButWaves : public Marks {};
+
+TEST_P(MarksButWaves, BearHolesBeingFilled)
 {
-    if (GetParam() == Method::Waves)
-        GTEST_SKIP() << "feels the volume between one filling and another";
     Surface open = load("homer.off");
     const Eigen::AlignedBox3d box = bounding_box(open);
     const double level = box.min().y() + 0.93 * box.sizes().y(); // the top of the head
@@ -193,11 +194,15 @@ TEST_P(Marks, BearHolesBeingFilled)
     EXPECT_TRUE(*read(filled).present);
 }
 
+std::string label(const testing::TestParamInfo<Method>& info)
+{
+    std::string text = name(info.param);
+    text.erase(std::remove(text.begin(), text.end(), '-'), text.end());
+    return text;
+}
+
 INSTANTIATE_TEST_SUITE_P(Body, Marks, testing::Values(Method::Waves, Method::LM, Method::Geodesic, Method::Spectral),
-                         [](const auto& info) {
-                             std::string text = name(info.param);
-                             text.erase(std::remove(text.begin(), text.end(), '-'), text.end());
-                             return text;
-                         });
+                         label);
+INSTANTIATE_TEST_SUITE_P(Body, MarksButWaves, testing::Values(Method::LM, Method::Geodesic, Method::Spectral), label);
 
 } // namespace

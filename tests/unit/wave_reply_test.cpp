@@ -83,7 +83,7 @@ TEST(WaveReply, PredictsWhatEmbeddingDoes)
 
     const WaveReply reply(body, plan);
     const WaveMoves moves = reply.moves(rung);
-    const Eigen::VectorXd amplitudes = moves.middle + moves.per_bit * signs;
+    const Eigen::VectorXd amplitudes = embedded.part / usual_part * (moves.middle + moves.per_bit * signs);
     const Points directions = offset_directions(body);
     std::vector<double> predicted(original.points.size(), 0);
     for (int k = 0; k < 64; ++k) {

@@ -98,7 +98,6 @@ WaveEmbedding embed_waves(const Cover& cover, const WavePlan& plan, const Bits& 
                 change.push_back(result.step * (std::round(beyond) - beyond));
             }
             const double size = strength * body.diagonal / body.radius;
-            change = field.nearest_for(size, std::move(change), result.step);
             result.part = std::clamp(size / field.size(change), least_part, 1.0);
             for (int k = 0; k < waves; ++k)
                 target.push_back(now[k] + result.part * change[k]);

@@ -161,57 +161,6 @@ double WaveField::size(const std::vector<double>& change) const
     return std::sqrt(a.dot(gram_ * a) / area_);
 }
 
-std::vector<double> WaveField::nearest_for(double size, std::vector<double> change, double step) const
-{
-    // A whole step at a time, or two, the best first, as long as that leaves less missing.
-    const int count = plan_.count();
-    const Eigen::MatrixXd inverse = solver_.solve(Eigen::MatrixXd::Identity(count, count));
-    const Eigen::MatrixXd p = 16 * pi * pi / area_ * inverse * gram_ * inverse; // size squared = change^T p change
-    Eigen::Map<Eigen::VectorXd> dm(change.data(), count);
-    Eigen::VectorXd slope = 2 * p * dm;
-    double square = dm.dot(p * dm);
-    const auto missing = [&](double size_squared, double way) {
-        const double part = std::min(1.0, size / std::sqrt(size_squared));
-        return (1 - part) * (1 - part) * way;
-    };
-    struct Move {
-        int wave = -1;
-        double by = 0;
-    };
-    for (int turn = 0; turn < 10 * count; ++turn) {
-        const double way = dm.squaredNorm();
-        double best = missing(square, way) - 1e-6 * step * step;
-        Move first, second;
-        const auto consider = [&](const Move& a, const Move& b, double size_squared, double new_way) {
-            if (const double left = missing(size_squared, new_way); left < best) {
-                best = left;
-                first = a;
-                second = b;
-            }
-        };
-        for (int k = 0; k < count; ++k)
-            for (const double by : {-step, step}) {
-                const double one = square + by * slope[k] + by * by * p(k, k);
-                const double one_way = way + by * (2 * dm[k] + by);
-                consider({k, by}, {}, one, one_way);
-                for (int l = 0; l < k; ++l)
-                    for (const double other : {-step, step})
-                        consider({k, by}, {l, other},
-                                 one + other * slope[l] + other * other * p(l, l) + 2 * by * other * p(k, l),
-                                 one_way + other * (2 * dm[l] + other));
-            }
-        if (first.wave < 0)
-            break;
-        for (const Move& move : {first, second})
-            if (move.wave >= 0) {
-                dm[move.wave] += move.by;
-                slope += 2 * move.by * p.col(move.wave);
-            }
-        square = dm.dot(p * dm);
-    }
-    return change;
-}
-
 std::vector<double> WaveField::at_sites(const std::vector<int>& sites) const
 {
     const std::size_t count = plan_.vectors.size();

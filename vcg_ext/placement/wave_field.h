@@ -25,11 +25,6 @@ public:
     /// RMS along the surface of the least field for `change`.
     [[nodiscard]] double size(const std::vector<double>& change) const;
 
-    /// Of all changes that differ from `change` by whole steps the one that can be made best by a field of `size`: what
-    /// is missing, where all go the same part of the way, is least. The nearest targets are not always, since waves are
-    /// alike on a surface.
-    [[nodiscard]] std::vector<double> nearest_for(double size, std::vector<double> change, double step) const;
-
     /// How much of a wave this mesh can make: 1 where its faces are small against the wave, to 0.
     [[nodiscard]] double reach(int wave) const;
 
