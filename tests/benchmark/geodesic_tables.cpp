@@ -114,8 +114,7 @@ void bits_and_moves()
                         ratio += *read(stego, options, key).detection_ratio;
                         turn = std::max(turn, largest_turn(cover, stego));
                         Surface moved = shapes::renumbered(shapes::moved(stego, 3.7, 1, {1, 2, 3}, {1, -2, 3}), 7);
-                        for (Point& p : moved.points)
-                            p = p.cast<float>().cast<double>();
+                        moved.points = rounded_to_float(moved.points);
                         moved_ratio += *read(moved, options, key).detection_ratio;
                     }
                     if (done > 0)

@@ -78,8 +78,7 @@ const Input inputs[] = {
     {"FloatSphere",
      [] {
          Surface s = shapes::sphere(4);
-         for (Point& p : s.points)
-             p = p.cast<float>().cast<double>();
+         s.points = rounded_to_float(s.points);
          return s;
      }},
     {"OneNaN", [] { return changed([](Surface& s) { s.points[7].y() = nan_value; }); }},
