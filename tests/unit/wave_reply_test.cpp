@@ -78,11 +78,8 @@ TEST(WaveReply, PredictsWhatEmbeddingDoes)
     }
     const Cover cover(original);
     const WaveEmbedding embedded = embed_waves(cover, plan, bits, 1e-4, [](const Points& p) { return p; });
-    int rung = 0;
-    ASSERT_EQ(wave_step(body, 1e-4, 64, &rung), embedded.step);
-
     const WaveReply reply(body, plan);
-    const WaveMoves moves = reply.moves(rung);
+    const WaveMoves moves = reply.moves(embedded.rung);
     const Eigen::VectorXd amplitudes = embedded.part / usual_part * (moves.middle + moves.per_bit * signs);
     const Points directions = offset_directions(body);
     std::vector<double> predicted(original.points.size(), 0);

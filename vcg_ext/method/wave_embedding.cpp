@@ -23,6 +23,8 @@ constexpr double near_enough = 0.01; ///< of a step
 /// displacement: strong attacks do less harm for what that costs where there is none (distortion-compensated QIM, Chen
 /// and Wornell 2001).
 constexpr double least_part = 0.7;
+constexpr double enough = 0.84;   ///< of the way: where it would be less, steps are shorter by a rung,
+constexpr int rungs_down = 2;     ///< or so many
 constexpr double readable = 0.05; ///< of a step: above it the mark is not worth having
 
 /// The m_k of vertices as they are now, in the solid's own frame.
@@ -39,6 +41,17 @@ std::vector<double> values_now(const WaveBody& body, const Points& vertices, con
         for (std::complex<double>& value : transform)
             value = -value;
     return wave_values_of(transform, plan.phases, false);
+}
+
+/// From each value to the nearest point of its lattice.
+std::vector<double> to_lattice(const WavePlan& plan, const Bits& coded, const std::vector<double>& values, double step)
+{
+    std::vector<double> change(values.size());
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        const double beyond = values[k] / step - plan.dithers[k] - coded[k] * 0.5;
+        change[k] = step * (std::round(beyond) - beyond);
+    }
+    return change;
 }
 
 std::string text(const char* format, double a, double b = 0, double c = 0)
@@ -63,7 +76,7 @@ WaveEmbedding embed_waves(const Cover& cover, const WavePlan& plan, const Bits& 
     if (body.topology.sites < waves)
         throw Error("The mesh has fewer vertices than there are waves.");
     WaveEmbedding result;
-    result.step = wave_step(body, strength, waves);
+    (void)wave_step(body, strength, waves, &result.rung);
     const WaveField field(body, plan);
     const Points directions = offset_directions(body);
     const int vertices = static_cast<int>(cover.points.size());
@@ -92,13 +105,15 @@ WaveEmbedding embed_waves(const Cover& cover, const WavePlan& plan, const Bits& 
         const std::vector<double> now = values_now(body, placed, plan);
         if (target.empty()) {
             std::vector<double> change;
-            for (int k = 0; k < waves; ++k) {
-                const double shift = plan.dithers[k] + coded[k] * 0.5;
-                const double beyond = now[k] / result.step - shift;
-                change.push_back(result.step * (std::round(beyond) - beyond));
+            const int lowest = result.rung - rungs_down;
+            for (;; --result.rung) {
+                result.step = step_of_rung(result.rung);
+                change = to_lattice(plan, coded, now, result.step);
+                result.part = strength * body.diagonal / body.radius / field.size(change);
+                if (result.part > enough || result.rung == lowest)
+                    break;
             }
-            const double size = strength * body.diagonal / body.radius;
-            result.part = std::clamp(size / field.size(change), least_part, 1.0);
+            result.part = std::clamp(result.part, least_part, 1.0);
             for (int k = 0; k < waves; ++k)
                 target.push_back(now[k] + result.part * change[k]);
         }

@@ -13,6 +13,7 @@ namespace vcg_ext {
 struct WaveEmbedding {
     Points points;    ///< marked and rounded, one a vertex of the cover
     double step = 0;  ///< D
+    int rung = 0;     ///< its place on the ladder
     double part = 0;  ///< of the way to its lattice that every m_k goes
     int rounds = 0;   ///< of the closed loop
     double worst = 0; ///< the largest distance of an m_k from its target, in steps
