@@ -60,8 +60,8 @@ void add_carrier_parameters(RichParameterList& list, const QString& bits_tip)
                  "needs the same one. Spectral ignores it."));
     list.addParam(RichString(
         "Key", "", "Secret key",
-        "A passphrase, or <i>file:PATH</i> for a file's bytes (less a line end at its end), or <i>env:NAME</i> for an environment "
-        "variable. The last two keep it out of scripts, histories and project files."));
+        "A passphrase, or <i>file:PATH</i> for a file's bytes (less a line end at its end), or <i>env:NAME</i> for an "
+        "environment variable. The last two keep it out of scripts, histories and project files."));
     list.addParam(RichInt("Bits", 0, "Bits", bits_tip));
     list.addParam(RichFloat(
         "Trim", -1, "Trim",
