@@ -87,7 +87,7 @@ class Window:
 
     def fill(self, filter_name: str, values: dict[str, str]) -> None:
         """Goes through the fields with Tab, from the dialog's title buttons to Apply."""
-        has_preview = filter_name == EMBED  # a box before the fields; MeshLab offers it where a filter changes the layer
+        has_preview = filter_name == EMBED  # a box before the fields, where a filter changes the layer
         xdotool("key", *["Tab"] * (2 if has_preview else 1))
         for name in FILTERS[filter_name][1]:
             xdotool("key", "Tab")
