@@ -4,7 +4,7 @@
 #include "../base/check.h"
 #include "../base/parallel.h"
 #include "orient.h"
-#include "sets.h"
+#include "parts.h"
 #include "sew.h"
 #include "size.h"
 
@@ -96,11 +96,7 @@ void mend(Body& body)
 void leave_out_loose_pieces(Body& body)
 {
     const Surface& surface = body.surface;
-    Sets sets(static_cast<int>(surface.points.size()));
-    for (const auto& [a, b, c] : surface.triangles) {
-        sets.join(a, b);
-        sets.join(a, c);
-    }
+    Sets sets = pieces_of(surface);
     for (int v = 0; v < static_cast<int>(surface.points.size()); ++v)
         body.pieces += sets.of(v) == v;
     if (body.pieces == 1)
