@@ -9,7 +9,6 @@
 #include "solid.h"
 #include "umbrella.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -57,29 +56,11 @@ Scored scored(const FootSearch& original, double size, const Points& points, int
     return result;
 }
 
-/// Centre, axes and square root of the area; exact moments of triangles.
+/// Centre, axes and square root of the area.
 Stand surface_stand(const Surface& surface)
 {
-    double area = 0;
-    Point first = Point::Zero();
-    Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-    const Point near = surface.points[surface.triangles.front()[0]];
-    for (const Triangle& t : surface.triangles) {
-        const double a = scaled_normal(surface.points, t).norm();
-        const Point corner[3] = {surface.points[t[0]] - near, surface.points[t[1]] - near, surface.points[t[2]] - near};
-        const Point sum = corner[0] + corner[1] + corner[2];
-        area += a;
-        first += a * sum / 3;
-        second += a / 12 * sum * sum.transpose();
-        for (const Point& p : corner)
-            second += a / 12 * p * p.transpose();
-    }
-    first /= area;
-    second = second / area - first * first.transpose();
-    Stand stand{near + first, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(second).eigenvectors(), std::sqrt(area)};
-    if (stand.axes.determinant() < 0)
-        stand.axes.col(2) *= -1;
-    return stand;
+    const Frame frame = area_frame(surface.points, surface.triangles);
+    return {frame.centre, frame.axes, std::sqrt(frame.measure)};
 }
 
 /// Centre, axes and ball radius of the solid; a length of 0 where there is none.
