@@ -10,3 +10,17 @@
 #else
 #define VCG_EXT_VECTORIZED
 #endif
+
+namespace vcg_ext {
+
+/// Doubles at a time, as the compiler's own vector: it does not always see by itself which loop to vectorise.
+constexpr int lanes = 4;
+using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
+
+/// As they may stand in a std::vector: by themselves they are aligned as the build's processor asks, and the copies
+/// for AVX2 expect more.
+struct alignas(lanes * sizeof(double)) StoredLanes {
+    Lanes value;
+};
+
+} // namespace vcg_ext

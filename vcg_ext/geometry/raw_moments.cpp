@@ -11,14 +11,11 @@ namespace vcg_ext {
 
 namespace {
 
-constexpr int lanes = 4; ///< triangles at a time
-using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
-using Corner = std::array<Lanes, 3>;
+using Corner = std::array<Lanes, 3>; ///< of as many triangles as there are lanes
 
-/// 1, x, y, z, xx, xy, xz, yy, yz, zz, xxx, xxy, ..., zzz; a lane sums each fourth triangle. Aligned as AVX2's copies
-/// expect: in a std::vector too.
-struct alignas(lanes * sizeof(double)) Sums {
-    std::array<Lanes, 20> of{};
+/// 1, x, y, z, xx, xy, xz, yy, yz, zz, xxx, xxy, ..., zzz; a lane sums each fourth triangle.
+struct Sums {
+    std::array<StoredLanes, 20> of{};
 };
 
 /// What the integrals of degree 1 to 3 are divided by.
@@ -53,21 +50,21 @@ inline void take(Sums& sums, const Lanes& measure, const Divisors& by, const Cor
     Lanes sum[3];
     Lanes pairs[3][3];
     int next = 0;
-    sums.of[next++] += measure;
+    sums.of[next++].value += measure;
     for (int i = 0; i < 3; ++i) {
         sum[i] = a[i] + b[i] + c[i];
-        sums.of[next++] += measure / by.first * sum[i];
+        sums.of[next++].value += measure / by.first * sum[i];
     }
     for (int i = 0; i < 3; ++i)
         for (int j = i; j < 3; ++j) {
             pairs[i][j] = a[i] * a[j] + b[i] * b[j] + c[i] * c[j];
             pairs[j][i] = pairs[i][j];
-            sums.of[next++] += measure / by.second * (pairs[i][j] + sum[i] * sum[j]);
+            sums.of[next++].value += measure / by.second * (pairs[i][j] + sum[i] * sum[j]);
         }
     for (int i = 0; i < 3; ++i)
         for (int j = i; j < 3; ++j)
             for (int k = j; k < 3; ++k)
-                sums.of[next++] +=
+                sums.of[next++].value +=
                     measure / by.third *
                     (sum[i] * sum[j] * sum[k] + sum[i] * pairs[j][k] + sum[j] * pairs[i][k] + sum[k] * pairs[i][j] +
                      2 * (a[i] * a[j] * a[k] + b[i] * b[j] * b[k] + c[i] * c[j] * c[k]));
@@ -106,11 +103,11 @@ RawMoments raw_moments(Of of, const Points& points, const std::vector<Triangle>&
     Sums sums{};
     for (const Sums& part : parts)
         for (std::size_t i = 0; i < sums.of.size(); ++i)
-            sums.of[i] += part.of[i];
+            sums.of[i].value += part.of[i].value;
 
     int next = 0;
     const auto total = [&] {
-        const Lanes& s = sums.of[next++];
+        const Lanes& s = sums.of[next++].value;
         return s[0] + s[1] + s[2] + s[3];
     };
     RawMoments result;
