@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "vcg_ext/base/pi.h"
 #include "vcg_ext/metric/bend.h"
 
 #include "support/shapes.h"
@@ -11,7 +12,7 @@ using namespace vcg_ext;
 
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
+constexpr double degree = pi / 180;
 
 double bend(const Surface& before, const Surface& after)
 {

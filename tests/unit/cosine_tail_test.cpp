@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "vcg_ext/base/pi.h"
 #include "vcg_ext/payload/cosine_tail.h"
 
 #include <cmath>
@@ -18,7 +19,7 @@ TEST(CosineTail, TwoCosinesAreBoundedAboveTheExactTail)
 {
     // P(cos a >= s) = acos(s) / pi.
     for (double s = 0.01; s < 1; s += 0.01)
-        EXPECT_GE(log_tail_of_cosines(1, s), std::log(std::acos(s) / 3.14159265358979323846));
+        EXPECT_GE(log_tail_of_cosines(1, s), std::log(std::acos(s) / pi));
 }
 
 TEST(CosineTail, TheTableIsABoundAndNear)

@@ -2,6 +2,7 @@
 #include "support/load.h"
 #include "support/shapes.h"
 #include "support/topology.h"
+#include "vcg_ext/base/pi.h"
 #include "vcg_ext/geometry/body.h"
 #include "vcg_ext/geometry/solid.h"
 
@@ -42,7 +43,7 @@ TEST(Solid, BoxHasItsTextbookMoments)
     EXPECT_LT((frame.centre - Point(1.5, 1, 0.5)).norm(), 1e-12);
     EXPECT_LT((frame.variances - Point(9, 4, 1) / 12).norm(), 1e-12);
     EXPECT_LT(frame.third_moments.norm(), 1e-12);
-    EXPECT_NEAR(ball_radius(frame), std::cbrt(6 * 3 / (4 * 3.14159265358979323846)), 1e-12);
+    EXPECT_NEAR(ball_radius(frame), std::cbrt(6 * 3 / (4 * pi)), 1e-12);
 }
 
 TEST(Solid, AgreesWithThePrincipalFrameOfAClosedSurface)
@@ -132,7 +133,6 @@ TEST(Solid, OpenSeamsAreSewn)
 TEST(Solid, AFlatHoleClosedByItsFanIsTheWholeSolid)
 {
     // A sphere cut flat at z = .6: volume pi (2 / 3 + .6 - .072), centroid by the moment -(1 - .36)^2 pi / 4.
-    const double pi = 3.14159265358979323846;
     Surface cap{{}, {}};
     const int rings = 200;
     const int around = 256;

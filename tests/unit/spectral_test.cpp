@@ -31,14 +31,6 @@ DetectOptions reading_of(const EmbedOptions& embedded)
     return options;
 }
 
-void attack(Surface& surface, Attack kind, std::uint64_t seed)
-{
-    AttackOptions options;
-    options.attack = kind;
-    options.seed = seed;
-    (void)apply_attack(surface, options);
-}
-
 /// A body with three planes of symmetry, bumpy: an octahedron's faces, `n` times cut, on an ellipsoid.
 Surface symmetric_body(int n)
 {
@@ -64,8 +56,8 @@ TEST(Spectral, IsReadBackAfterSimilarityAndRenumbering)
         EXPECT_EQ(embedded.detection_ratio, 1);
         EXPECT_EQ(embedded.warnings.size(), 0u);
         EXPECT_EQ(detect(marked, key, reading_of(options)).bits, options.message.bits);
-        attack(marked, Attack::Similarity, 3);
-        attack(marked, Attack::Reorder, 4);
+        (void)apply_attack(marked, {Attack::Similarity, -1, -1, 3});
+        (void)apply_attack(marked, {Attack::Reorder, -1, -1, 4});
         EXPECT_EQ(detect(marked, key, reading_of(options)).bits, options.message.bits);
     }
 }

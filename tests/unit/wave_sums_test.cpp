@@ -2,6 +2,7 @@
 #include "support/load.h"
 #include "support/shapes.h"
 #include "vcg_ext/base/parallel.h"
+#include "vcg_ext/base/pi.h"
 #include "vcg_ext/geometry/turns.h"
 #include "vcg_ext/geometry/wave_sums.h"
 
@@ -12,8 +13,6 @@ namespace {
 
 using namespace vcg_ext;
 using Complex = std::complex<double>;
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Integral of exp(i q x) over [0, a].
 Complex interval(double q, double a)

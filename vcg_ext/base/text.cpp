@@ -29,4 +29,9 @@ std::string chance(double log10_p)
     return "p 1e" + std::to_string(static_cast<int>(std::ceil(log10_p)));
 }
 
+bool starts_with(std::string_view text, std::string_view prefix)
+{
+    return text.substr(0, prefix.size()) == prefix;
+}
+
 } // namespace vcg_ext

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <string>
+#include <string_view>
 
 namespace vcg_ext {
 
@@ -10,5 +11,7 @@ namespace vcg_ext {
 
 /// A probability as verdicts have it, rounded up to a power of ten so that it stays a bound: "p 1e-6".
 [[nodiscard]] std::string chance(double log10_p);
+
+[[nodiscard]] bool starts_with(std::string_view text, std::string_view prefix);
 
 } // namespace vcg_ext

@@ -2,6 +2,7 @@
 #include "demodulation.h"
 
 #include "../base/parallel.h"
+#include "../base/pi.h"
 #include "../geometry/wave_sums.h"
 #include "../key/random.h"
 #include "waves.h"
@@ -219,7 +220,7 @@ Rows decoy_values(const Points& places, std::vector<double>& lengths)
     const Points vectors = wave_vectors(draws, decoys);
     std::vector<double> phases;
     for (const Point& q : vectors) {
-        phases.push_back(2 * 3.14159265358979323846 * uniform(draws));
+        phases.push_back(2 * pi * uniform(draws));
         lengths.push_back(q.norm());
     }
     const std::vector<double> values = wave_values(places, vectors, phases);

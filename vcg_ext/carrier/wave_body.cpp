@@ -3,6 +3,7 @@
 
 #include "../base/error.h"
 #include "../base/parallel.h"
+#include "../base/pi.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,6 @@ namespace vcg_ext {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double round_below = 0.05;  ///< relative difference of two variances below which the angle is not theirs
 constexpr double never_round = 0.1;   ///< and the same from which on no copy's can be there
 constexpr double always_round = 0.02; ///< and below

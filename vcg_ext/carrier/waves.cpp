@@ -3,6 +3,7 @@
 
 #include "../base/error.h"
 #include "../base/parallel.h"
+#include "../base/pi.h"
 #include "../base/vectorized.h"
 #include "../geometry/turns.h"
 #include "../geometry/wave_sums.h"
@@ -19,7 +20,6 @@ namespace vcg_ext {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double rungs_per_octave = 4;
 constexpr double plain_share = 0.7; ///< of the weight, for the orientation that the body itself tells
 constexpr double never = std::numeric_limits<double>::infinity();

@@ -2,6 +2,7 @@
 #include "chebyshev.h"
 
 #include "../base/parallel.h"
+#include "../base/pi.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,14 +21,14 @@ double HighPass::transfer(double eigenvalue) const
 HighPass high_pass(double cutoff, double bound, int degree)
 {
     const double edge = std::acos(2 * cutoff / bound - 1);
-    const double step = M_PI / (degree + 2);
+    const double step = pi / (degree + 2);
     HighPass filter;
     filter.bound = bound;
-    filter.coefficients.push_back(edge / M_PI);
+    filter.coefficients.push_back(edge / pi);
     for (int k = 1; k <= degree; ++k) {
         const double jackson =
             ((degree + 2 - k) * std::cos(k * step) + std::sin(k * step) / std::tan(step)) / (degree + 2);
-        filter.coefficients.push_back(jackson * 2 * std::sin(k * edge) / (k * M_PI));
+        filter.coefficients.push_back(jackson * 2 * std::sin(k * edge) / (k * pi));
     }
     return filter;
 }

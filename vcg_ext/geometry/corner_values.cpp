@@ -72,12 +72,12 @@ Charts charts_of(const Surface& cover, const std::vector<int>& site_of_vertex, i
 }
 
 /// A place on the cover: weights of the corners of a face.
-struct Foot {
+struct Place {
     int face = -1;
     Point weights = Point::Zero();
     double distance = std::numeric_limits<double>::infinity(); ///< squared
 
-    void nearer(const Foot& other)
+    void nearer(const Place& other)
     {
         if (other.distance < distance)
             *this = other;
@@ -85,47 +85,47 @@ struct Foot {
 };
 
 /// Of the edge between corners `a` and `b` of a face the place nearest to `p`.
-Foot nearest_on_edge(const std::array<Point, 3>& corners, int face, int a, int b, const Point& p)
+Place nearest_on_edge(const std::array<Point, 3>& corners, int face, int a, int b, const Point& p)
 {
     const Point edge = corners[b] - corners[a];
     const double square = edge.squaredNorm();
     const double part = square > 0 ? std::clamp((p - corners[a]).dot(edge) / square, 0.0, 1.0) : 0;
-    Foot foot;
-    foot.face = face;
-    foot.weights[a] = 1 - part;
-    foot.weights[b] = part;
-    foot.distance = (corners[a] + part * edge - p).squaredNorm();
-    return foot;
+    Place place;
+    place.face = face;
+    place.weights[a] = 1 - part;
+    place.weights[b] = part;
+    place.distance = (corners[a] + part * edge - p).squaredNorm();
+    return place;
 }
 
-Foot nearest_on_face(const std::array<Point, 3>& corners, int face, const Point& p)
+Place nearest_on_face(const std::array<Point, 3>& corners, int face, const Point& p)
 {
     const Point normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     const double square = normal.squaredNorm();
     if (square > 0) {
-        Foot foot;
-        foot.face = face;
+        Place place;
+        place.face = face;
         for (int k = 0; k < 3; ++k)
-            foot.weights[k] =
+            place.weights[k] =
                 (corners[(k + 2) % 3] - corners[(k + 1) % 3]).cross(p - corners[(k + 1) % 3]).dot(normal) / square;
-        if (foot.weights.minCoeff() >= 0) {
-            foot.distance = std::pow((p - corners[0]).dot(normal), 2) / square;
-            return foot;
+        if (place.weights.minCoeff() >= 0) {
+            place.distance = std::pow((p - corners[0]).dot(normal), 2) / square;
+            return place;
         }
     }
-    Foot foot = nearest_on_edge(corners, face, 0, 1, p);
-    foot.nearer(nearest_on_edge(corners, face, 1, 2, p));
-    foot.nearer(nearest_on_edge(corners, face, 2, 0, p));
-    return foot;
+    Place place = nearest_on_edge(corners, face, 0, 1, p);
+    place.nearer(nearest_on_edge(corners, face, 1, 2, p));
+    place.nearer(nearest_on_edge(corners, face, 2, 0, p));
+    return place;
 }
 
-/// Finds the feet of the charts' vertices.
-class Feet {
+/// Finds the places of the charts' vertices.
+class Places {
 public:
-    Feet(const Charts& charts, const Points& sites) : charts_(charts), sites_(sites) {}
+    Places(const Charts& charts, const Points& sites) : charts_(charts), sites_(sites) {}
 
     /// Where the charts' vertex `v` finds its values, now that it is at `p`.
-    [[nodiscard]] Foot operator()(int v, const Point& p) const
+    [[nodiscard]] Place operator()(int v, const Point& p) const
     {
         return charts_.on_seam(v) ? along_seam(v, p) : within_chart(v, p);
     }
@@ -137,20 +137,20 @@ private:
         return {sites_[charts_.site[t[0]]], sites_[charts_.site[t[1]]], sites_[charts_.site[t[2]]]};
     }
 
-    void take_around(int v, const Point& p, Foot& best) const
+    void take_around(int v, const Point& p, Place& best) const
     {
         for (const int* f = charts_.around.begin(v); f != charts_.around.end(v); ++f)
             best.nearer(nearest_on_face(corners(*f), *f, p));
     }
 
     /// Walks from face to face as long as that leads nearer.
-    [[nodiscard]] Foot within_chart(int v, const Point& p) const
+    [[nodiscard]] Place within_chart(int v, const Point& p) const
     {
         constexpr int most_steps = 50;
-        Foot best;
+        Place best;
         take_around(v, p, best);
         for (int step = 0; step < most_steps; ++step) {
-            const Foot before = best;
+            const Place before = best;
             for (const int w : charts_.triangles[before.face])
                 take_around(w, p, best);
             if (best.face == before.face)
@@ -174,10 +174,10 @@ private:
     }
 
     /// The seam's edges at `v` are borders of all charts there.
-    [[nodiscard]] Foot along_seam(int v, const Point& p) const
+    [[nodiscard]] Place along_seam(int v, const Point& p) const
     {
         const int s = charts_.site[v];
-        Foot best = kept(v);
+        Place best = kept(v);
         best.distance = (sites_[s] - p).squaredNorm();
         for (const int* f = charts_.around.begin(v); f != charts_.around.end(v); ++f)
             for (const int w : charts_.triangles[*f]) {
@@ -193,12 +193,12 @@ private:
         return best;
     }
 
-    [[nodiscard]] Foot kept(int v) const
+    [[nodiscard]] Place kept(int v) const
     {
-        Foot foot;
-        foot.face = charts_.corner[v][0];
-        foot.weights[charts_.corner[v][1]] = 1;
-        return foot;
+        Place place;
+        place.face = charts_.corner[v][0];
+        place.weights[charts_.corner[v][1]] = 1;
+        return place;
     }
 
     [[nodiscard]] int corner_of(int face, int v) const
@@ -254,18 +254,18 @@ CarriedValues carried_values(const Surface& cover, const CornerValues& values, c
         if (welded.site_of_vertex[v] >= 0)
             site_now[welded.site_of_vertex[v]] = moved[v];
     const Charts charts = charts_of(cover, welded.site_of_vertex, static_cast<int>(sites.size()), values);
-    const Feet find(charts, sites);
-    std::vector<Foot> feet(charts.vertices());
-    Points places(charts.vertices()); // of the feet
+    const Places find(charts, sites);
+    std::vector<Place> taken_from(charts.vertices());
+    Points places(charts.vertices()); // on the cover
     for_each_index(charts.vertices(), [&](int v) {
         const int s = charts.site[v];
         places[v] = sites[s];
         if (site_now[s] == sites[s])
             return;
-        feet[v] = find(v, site_now[s]);
+        taken_from[v] = find(v, site_now[s]);
         places[v].setZero();
         for (int k = 0; k < 3; ++k)
-            places[v] += feet[v].weights[k] * sites[charts.site[charts.triangles[feet[v].face][k]]];
+            places[v] += taken_from[v].weights[k] * sites[charts.site[charts.triangles[taken_from[v].face][k]]];
     });
 
     CarriedValues result{values, 1};
@@ -275,17 +275,17 @@ CarriedValues carried_values(const Surface& cover, const CornerValues& values, c
         if (t[0] < 0)
             return;
         for (int k = 0; k < 3; ++k) {
-            const Foot& foot = feet[t[k]];
-            if (foot.face < 0)
+            const Place& place = taken_from[t[k]];
+            if (place.face < 0)
                 continue;
             for (int c = 0; c < values.channels; ++c) {
                 double sum = 0;
                 for (int corner = 0; corner < 3; ++corner)
-                    sum += foot.weights[corner] * values.at(foot.face, corner)[c];
+                    sum += place.weights[corner] * values.at(place.face, corner)[c];
                 result.values.at(f, k)[c] = sum;
             }
         }
-        if (std::none_of(t.begin(), t.end(), [&](int v) { return feet[v].face >= 0; }))
+        if (std::none_of(t.begin(), t.end(), [&](int v) { return taken_from[v].face >= 0; }))
             return;
         stretches[f] =
             stretch_between({places[t[0]], places[t[1]], places[t[2]]},

@@ -2,6 +2,7 @@
 #include "features.h"
 
 #include "../base/parallel.h"
+#include "../base/pi.h"
 #include "../key/random.h"
 
 #include <Eigen/Eigenvalues>
@@ -13,7 +14,6 @@ namespace vcg_ext {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr std::array<double, 4> radii = {0.03, 0.05, 0.08, 0.12};
 constexpr double normal_radius = 0.02;
 constexpr int candidates = 8;           ///< features of the surface that one of the original may be

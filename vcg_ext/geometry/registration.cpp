@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "registration.h"
 
+#include "../base/pi.h"
+
 #include "edge_graph.h"
 #include "features.h"
 #include "icp.h"
@@ -17,8 +19,6 @@
 namespace vcg_ext {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 // Lengths are in sizes of the original.
 constexpr double far = 0.08;      ///< further from the original than this is all alike

@@ -2,6 +2,7 @@
 #include "solid.h"
 
 #include "../base/parallel.h"
+#include "../base/pi.h"
 #include "boundary.h"
 #include "sets.h"
 
@@ -12,8 +13,6 @@
 namespace vcg_ext {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Whether there is a solid to speak of. Where the surface is as good as flat, or bounds as much on the one side as on
 /// the other, the volume nearly cancels, and its moments over it are anything.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "../base/pi.h"
 
 namespace vcg_ext {
 
@@ -9,11 +10,10 @@ namespace vcg_ext {
 /// \param x radians, |x| < 1e9
 inline void sine_cosine(double x, double& sine, double& cosine)
 {
-    constexpr double half_a_turn = 3.14159265358979323846;
     constexpr double shift = 6755399441055744.0; // 1.5 * 2^52: adding it rounds to whole numbers
-    const double turns = x * (0.5 / half_a_turn);
+    const double turns = x * (0.5 / pi);
     const double whole = (turns + shift) - shift;
-    const double y = (turns - whole) * (half_a_turn / 2); // a quarter of the angle, within pi / 4
+    const double y = (turns - whole) * (pi / 2); // a quarter of the angle, within pi / 4
     const double z = y * y;
     const double s =
         y * (1 + z * (-1.0 / 6 +

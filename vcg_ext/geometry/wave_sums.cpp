@@ -2,6 +2,7 @@
 #include "wave_sums.h"
 
 #include "../base/parallel.h"
+#include "../base/pi.h"
 #include "../base/vectorized.h"
 #include "turns.h"
 
@@ -12,8 +13,6 @@
 namespace vcg_ext {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Waves as columns, so that loops over them vectorise.
 struct Columns {
@@ -31,14 +30,15 @@ struct Columns {
 };
 
 /// What a run of triangles comes to.
-struct Sums {
+struct PartialSums {
     std::vector<double> re, im;
 };
 
 /// Adds (q . n) times the mean of exp(i q . x) over a triangle, for all waves, by the series of `Terms` homogeneous
 /// polynomials about the centroid: 2 h_n / (n + 2)!, where h_n = -e2 h_(n-2) + e3 h_(n-3), since h_1 is 0.
 template <int Terms>
-void add_series(const Columns& q, const Point& centre, const Point& to_a, const Point& to_b, const Point& n, Sums& sums)
+void add_series(const Columns& q, const Point& centre, const Point& to_a, const Point& to_b, const Point& n,
+                PartialSums& sums)
 {
     const double* __restrict qx = q.x.data();
     const double* __restrict qy = q.y.data();
@@ -95,7 +95,8 @@ std::complex<double> divided(double a, double b)
 }
 
 /// The same for a triangle of any size: by divided differences over the pair of corners that lies farthest apart.
-void add_exact(const Columns& q, const Point& centre, const Point& to_a, const Point& to_b, const Point& n, Sums& sums)
+void add_exact(const Columns& q, const Point& centre, const Point& to_a, const Point& to_b, const Point& n,
+               PartialSums& sums)
 {
     for (std::size_t k = 0; k < q.count; ++k) {
         const Point wave(q.x[k], q.y[k], q.z[k]);
@@ -116,7 +117,8 @@ void add_exact(const Columns& q, const Point& centre, const Point& to_a, const P
 }
 
 /// The series for those waves only whose phases lie close together.
-void add_mixed(const Columns& q, const Point& centre, const Point& to_a, const Point& to_b, const Point& n, Sums& sums)
+void add_mixed(const Columns& q, const Point& centre, const Point& to_a, const Point& to_b, const Point& n,
+               PartialSums& sums)
 {
     Points close;
     std::vector<std::size_t> which;
@@ -129,7 +131,7 @@ void add_mixed(const Columns& q, const Point& centre, const Point& to_a, const P
             which.push_back(k);
         }
     }
-    Sums part{std::vector<double>(close.size(), 0), std::vector<double>(close.size(), 0)};
+    PartialSums part{std::vector<double>(close.size(), 0), std::vector<double>(close.size(), 0)};
     add_series<22>(Columns(close), centre, to_a, to_b, n, part);
     for (std::size_t i = 0; i < which.size(); ++i) {
         sums.re[which[i]] += part.re[i];
@@ -145,13 +147,6 @@ namespace cells {
 constexpr int degree = 4; ///< of the monomials of x
 constexpr int monomials = 35;
 constexpr int products = 55; ///< monomials of q from degree 1 to 5
-constexpr int lanes = 4;
-/// One value a wave, as the compiler's own vector: it does not see by itself which loop to vectorise here.
-using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
-/// As it may stand in a std::vector: by itself it is aligned as the build's processor asks, AVX2's copies expect more.
-struct alignas(lanes * sizeof(double)) StoredLanes {
-    Lanes value;
-};
 constexpr double size = 0.8; ///< edge of a cell over the shortest wave's 1 / |q|
 
 struct Exponents {
@@ -271,7 +266,7 @@ struct Sources {
 
 /// Adds exp(i q . centre) times the polynomial, for all waves.
 void add(const Columns& q, const std::vector<StoredLanes>& powers, const Point& centre,
-         const std::array<double, products>& c, Sums& sums)
+         const std::array<double, products>& c, PartialSums& sums)
 {
     for (std::size_t first = 0; first < q.count; first += lanes) {
         const StoredLanes* power = powers.data() + first / lanes * products;
@@ -359,7 +354,7 @@ double spread_of(const Points& points, const Triangle& t, double largest)
 }
 
 VCG_EXT_VECTORIZED void add_triangle(const Columns& q, const Points& points, const Triangle& t, double spread,
-                                     Sums& sums)
+                                     PartialSums& sums)
 {
     const Point centre = (points[t[0]] + points[t[1]] + points[t[2]]) / 3;
     const Point a = points[t[0]] - centre;
@@ -376,9 +371,9 @@ VCG_EXT_VECTORIZED void add_triangle(const Columns& q, const Points& points, con
 }
 
 /// Adds the cell's small triangles, all of them together.
-VCG_EXT_VECTORIZED void add_cell(const Columns& q, const std::vector<cells::StoredLanes>& powers, const Points& points,
+VCG_EXT_VECTORIZED void add_cell(const Columns& q, const std::vector<StoredLanes>& powers, const Points& points,
                                  const std::vector<Triangle>& triangles, const cells::Grid& grid, int cell,
-                                 double largest, Sums& sums)
+                                 double largest, PartialSums& sums)
 {
     const Point& centre = grid.centres[cell];
     cells::Sources sources;
@@ -425,22 +420,22 @@ std::vector<std::complex<double>> solid_transform(const Points& points, const st
         grid = cells::sort(points, triangles, cells::size / largest, own);
     else
         std::fill(own.begin(), own.end(), -1);
-    const std::vector<cells::StoredLanes> powers = cells::wave_products(q);
+    const std::vector<StoredLanes> powers = cells::wave_products(q);
     const int cell_count = static_cast<int>(grid.centres.size());
     const int triangle_parts = (count + chunk - 1) / chunk;
     const int cell_parts = (cell_count + cells_chunk - 1) / cells_chunk;
 
-    std::vector<Sums> partial(triangle_parts + cell_parts);
-    const auto nothing = [&] { return Sums{std::vector<double>(q.count, 0), std::vector<double>(q.count, 0)}; };
+    std::vector<PartialSums> partial(triangle_parts + cell_parts);
+    const auto nothing = [&] { return PartialSums{std::vector<double>(q.count, 0), std::vector<double>(q.count, 0)}; };
     for_chunks(count, chunk, [&](int begin, int end) {
-        Sums sums = nothing();
+        PartialSums sums = nothing();
         for (int f = begin; f < end; ++f)
             if (own[f] < 0)
                 add_triangle(q, points, triangles[f], spread_of(points, triangles[f], largest), sums);
         partial[begin / chunk] = std::move(sums);
     });
     for_chunks(cell_count, cells_chunk, [&](int begin, int end) {
-        Sums sums = nothing();
+        PartialSums sums = nothing();
         for (int i = begin; i < end; ++i)
             add_cell(q, powers, points, triangles, grid, i, largest, sums);
         partial[triangle_parts + begin / cells_chunk] = std::move(sums);
@@ -449,7 +444,7 @@ std::vector<std::complex<double>> solid_transform(const Points& points, const st
     std::vector<std::complex<double>> result(q.count);
     for (std::size_t k = 0; k < q.count; ++k) {
         double re = 0, im = 0;
-        for (const Sums& part : partial) {
+        for (const PartialSums& part : partial) {
             re += part.re[k];
             im += part.im[k];
         }

@@ -2,6 +2,7 @@
 #include "wave_embedding.h"
 
 #include "../base/parallel.h"
+#include "../base/pi.h"
 #include "../base/progress.h"
 #include "../geometry/turns.h"
 #include "../geometry/wave_sums.h"
@@ -16,16 +17,15 @@ namespace vcg_ext {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr int most_rounds = 12;
 constexpr double near_enough = 0.01; ///< of a step
 /// Of the way to its target that a wave goes at least. Where it goes less than all of it, steps are longer for the same
 /// displacement: strong attacks do less harm for what that costs where there is none (distortion-compensated QIM, Chen
 /// and Wornell 2001).
 constexpr double least_part = 0.7;
-constexpr double enough = 0.84;   ///< of the way: where it would be less, steps are shorter by a rung,
-constexpr int rungs_down = 2;     ///< or so many
-constexpr double readable = 0.05; ///< of a step: above it the mark is not worth having
+constexpr double enough_part = 0.84; ///< of the way: where it would be less, steps are shorter by a rung,
+constexpr int rungs_down = 2;        ///< or so many
+constexpr double readable = 0.05;    ///< of a step: above it the mark is not worth having
 
 /// The m_k of vertices as they are now, in the solid's own frame.
 std::vector<double> values_now(const WaveBody& body, const Points& vertices, const WavePlan& plan)
@@ -110,7 +110,7 @@ WaveEmbedding embed_waves(const Cover& cover, const WavePlan& plan, const Bits& 
                 result.step = step_of_rung(result.rung);
                 change = to_lattice(plan, coded, now, result.step);
                 result.part = strength * body.diagonal / body.radius / field.size(change);
-                if (result.part > enough || result.rung == lowest)
+                if (result.part > enough_part || result.rung == lowest)
                     break;
             }
             result.part = std::clamp(result.part, least_part, 1.0);

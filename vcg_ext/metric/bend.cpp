@@ -2,6 +2,7 @@
 #include "bend.h"
 
 #include "../base/parallel.h"
+#include "../base/pi.h"
 #include "../geometry/normals.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace vcg_ext {
 
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
+constexpr double degree = pi / 180;
 
 bool has(const Triangle& t, int v)
 {

@@ -3,6 +3,7 @@
 
 #include "../base/error.h"
 #include "../key/random.h"
+#include "soft.h"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +16,6 @@ namespace vcg_ext {
 namespace {
 
 constexpr std::array<int, 9> ladder = {64, 96, 128, 192, 256, 384, 512, 768, 1024};
-constexpr double log10_2 = 0.301029995663981195;
 constexpr int carriers_over = 20; // 2^-20 is just below 1e-6
 
 using Words = std::vector<std::uint64_t>;

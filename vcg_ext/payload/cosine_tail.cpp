@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cosine_tail.h"
 
+#include "../base/pi.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,8 +11,6 @@
 namespace vcg_ext {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Logarithm of the modified Bessel function of order 0, and its derivative I_1 / I_0, for x >= 0.
 struct Bessel {

@@ -2,6 +2,7 @@
 #include "evidence.h"
 
 #include "../base/error.h"
+#include "soft.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,15 +11,8 @@ namespace vcg_ext {
 
 namespace {
 
-constexpr double log10_2 = 0.301029995663981195;
 constexpr double ln_10 = 2.302585092994045684;
 constexpr double rounding = 1e-12; // more than all sums of 1024 doubles lose, relative to the sum
-
-double usable(double soft)
-{
-    constexpr double most = 1e300; // the sum of 1024 is no infinity
-    return std::isnan(soft) ? 0 : std::clamp(soft, -most, most);
-}
 
 } // namespace
 

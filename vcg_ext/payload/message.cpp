@@ -2,17 +2,13 @@
 #include "message.h"
 
 #include "../base/error.h"
+#include "../base/text.h"
 
 #include <algorithm>
 
 namespace vcg_ext {
 
 namespace {
-
-bool starts_with(std::string_view text, std::string_view prefix)
-{
-    return text.substr(0, prefix.size()) == prefix;
-}
 
 void append(Bits& bits, unsigned value, int count)
 {

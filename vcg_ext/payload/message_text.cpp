@@ -2,6 +2,7 @@
 #include "message_text.h"
 
 #include "../base/error.h"
+#include "../base/text.h"
 
 #include <algorithm>
 #include <charconv>
@@ -13,11 +14,6 @@ namespace {
 
 constexpr std::size_t most_candidates = 1'000'000;
 constexpr std::string_view id_prefix = "id:";
-
-bool starts_with(std::string_view text, std::string_view prefix)
-{
-    return text.substr(0, prefix.size()) == prefix;
-}
 
 Bits read_id(std::string_view digits)
 {

@@ -2,11 +2,11 @@
 #include "polar.h"
 
 #include "../base/error.h"
+#include "soft.h"
 
 #include <algorithm>
 #include <bitset>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace vcg_ext {
@@ -73,12 +73,6 @@ void transform(std::vector<std::uint8_t>& word)
         for (std::size_t start = 0; start < word.size(); start += 2 * half)
             for (std::size_t i = start; i < start + half; ++i)
                 word[i] ^= word[i + half];
-}
-
-double usable(double soft)
-{
-    constexpr double most = std::numeric_limits<double>::max();
-    return std::isnan(soft) ? 0 : std::clamp(soft, -most, most);
 }
 
 /// The paths through a code, all at the same bit of u. A node of the code's tree, whose leaves are the bits of u, gets

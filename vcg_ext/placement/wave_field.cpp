@@ -2,6 +2,7 @@
 #include "wave_field.h"
 
 #include "../base/parallel.h"
+#include "../base/pi.h"
 #include "../carrier/wave_flows.h"
 #include "../geometry/turns.h"
 #include "../geometry/wave_sums.h"
@@ -14,7 +15,6 @@ namespace vcg_ext {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr int sample = 20000; ///< sites in the Gram matrix: 64 waves need no more, and the loop corrects the rest
 
 /// Lumped areas: a third of those around.

@@ -2,6 +2,7 @@
 #include "wave_reply.h"
 
 #include "../base/parallel.h"
+#include "../base/pi.h"
 #include "../geometry/turns.h"
 #include "../geometry/wave_sums.h"
 
@@ -12,8 +13,6 @@
 namespace vcg_ext {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// How the frame moves, per amplitude: centre, the turn of the axes (a rotation vector), logarithm of the radius.
 using Motion = Eigen::Matrix<double, 7, 1>;
