@@ -9,8 +9,8 @@ shift
 build=build/sanitized-${sanitizers%%,*}
 programs=(unit_tests fuzz)
 [ $# = 0 ] || programs=("$1")
-# Little optimization: it compiles in half the time, and the tests take little longer.
-cmake -B "$build" -DSANITIZE="$sanitizers" -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" >/dev/null
+# Little optimization, and folders as one file each: it compiles in a fifth of the time, and the tests take little longer.
+cmake -B "$build" -DSANITIZE="$sanitizers" -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" -DCMAKE_UNITY_BUILD=ON >/dev/null
 cmake --build "$build" --parallel "$(nproc)" --target "${programs[@]}"
 # To abort, so that fuzz can say in which case. It must do so for a fault of each kind, or a real one would be lost.
 export ASAN_OPTIONS=abort_on_error=1:${ASAN_OPTIONS-} UBSAN_OPTIONS=abort_on_error=1:print_stacktrace=1:${UBSAN_OPTIONS-}
