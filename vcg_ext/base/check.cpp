@@ -2,6 +2,7 @@
 #include "check.h"
 
 #include "error.h"
+#include "parallel.h"
 
 #include <algorithm>
 #include <string>
@@ -19,18 +20,20 @@ constexpr double smallest = 1e-35;
 void check_surface(const Surface& surface, const char* which)
 {
     const std::string mesh = std::string("The ") + which;
-    const auto not_finite =
-        std::count_if(surface.points.begin(), surface.points.end(), [](const Point& p) { return !p.allFinite(); });
+    const auto vertices = static_cast<int>(surface.points.size());
+    const int not_finite = ordered_sum(vertices, 0, [&](int v) { return !surface.points[v].allFinite(); });
     if (not_finite > 0)
         throw Error(std::to_string(not_finite) + " of the " + std::to_string(surface.points.size()) +
                     " vertices have coordinates that are no finite numbers. Remove these vertices first.");
     if (surface.triangles.empty())
         throw Error(mesh + " has no faces, so there is no surface. "
                            "Open a mesh with faces, or reconstruct the surface.");
-    const auto vertices = static_cast<int>(surface.points.size());
-    for (const Triangle& t : surface.triangles)
-        if (std::any_of(t.begin(), t.end(), [vertices](int v) { return v < 0 || v >= vertices; }))
-            throw Error("A face of the " + std::string(which) + " refers to a vertex that does not exist.");
+    const auto outside = [vertices](int v) { return v < 0 || v >= vertices; };
+    if (ordered_sum(static_cast<int>(surface.triangles.size()), 0, [&](int f) {
+            const Triangle& t = surface.triangles[f];
+            return std::any_of(t.begin(), t.end(), outside);
+        }) > 0)
+        throw Error("A face of the " + std::string(which) + " refers to a vertex that does not exist.");
     const Eigen::AlignedBox3d box = bounding_box(surface);
     if (box.min().minCoeff() < -largest || box.max().maxCoeff() > largest)
         throw Error(mesh + " has coordinates of more than 1e35. Scale it down first.");

@@ -3,6 +3,7 @@
 
 #include "parallel.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 
@@ -71,6 +72,20 @@ private:
     std::vector<int> slot_; // open addressing: a table of numbers, so no order but the input's reaches the result
 };
 
+/// Whether all positions differ, each is in a face, and no face has one twice: what weld() would change nothing of.
+bool is_welded(const Sites& all, const Surface& surface)
+{
+    if (all.points.size() < surface.points.size())
+        return false;
+    std::vector<char> used(surface.points.size(), 0);
+    for (const auto& [a, b, c] : surface.triangles) {
+        if (a == b || b == c || c == a)
+            return false;
+        used[a] = used[b] = used[c] = 1;
+    }
+    return std::find(used.begin(), used.end(), 0) == used.end();
+}
+
 } // namespace
 
 Welded weld(const Surface& surface)
@@ -81,6 +96,8 @@ Welded weld(const Surface& surface)
     for (std::size_t v = 0; v < vertices; ++v)
         position[v] = all.number(v);
 
+    if (is_welded(all, surface))
+        return {{std::move(all.points), surface.triangles}, std::move(position)};
     std::vector<Triangle> triangles;
     triangles.reserve(surface.triangles.size());
     std::vector<int> site_of_position(all.points.size(), -1);

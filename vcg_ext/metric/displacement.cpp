@@ -78,7 +78,7 @@ double rms_one_way(const Points& from, const Points& to, const std::vector<Trian
                    const VertexFaces& around)
 {
     const int faces = static_cast<int>(triangles.size());
-    const int stride = std::max(1, faces / 32768);
+    const int stride = std::max(1, faces / 16384);
     const Sum sum = ordered_sum((faces + stride - 1) / stride, Sum(), [&](int i) {
         const Triangle& t = triangles[i * stride];
         std::array<Point, 3> samples;

@@ -89,18 +89,21 @@ double self_check(const Surface& marked, const Key& key, const EmbedOptions& opt
 
 /// All layers of the method, the one on top of the other, so far as each leaves those below it readable.
 /// \param check of positions with `result.layers` on them: the part of the carriers that hold their bits
-/// \return the positions
+/// \return the positions, which are those that were checked last
 Points put_on(const Cover& cover, const Key& key, const EmbedOptions& options, const Bits& coded, EmbedReport& result,
               const std::function<double(const Points&)>& check, const Progress& progress)
 {
     const MethodRow& wanted = row_of(options.carriers.method);
-    Surface marked;
+    Points first;
+    Surface marked; // the first layer, as the cover of those above
     std::optional<Cover> below;
     std::string refusals;
     for (std::size_t i = 0; i < wanted.layers.size(); ++i) {
         const auto& [method, strength] = wanted.layers[i];
-        if (i == 1)
+        if (i == 1) {
+            marked = {first, cover.triangles};
             below.emplace(marked);
+        }
         try {
             Marking marking =
                 mark(below ? *below : cover, key, row_of(method), options, coded, strength, result.trim, progress);
@@ -110,7 +113,7 @@ Points put_on(const Cover& cover, const Key& key, const EmbedOptions& options, c
             take_up(marking, result);
             if (i > 0)
                 return marking.kept.points;
-            marked = {std::move(marking.kept.points), cover.triangles};
+            first = std::move(marking.kept.points);
         } catch (const Cancelled&) {
             throw;
         } catch (const Error& error) {
@@ -124,9 +127,9 @@ Points put_on(const Cover& cover, const Key& key, const EmbedOptions& options, c
         result.warnings.push_back(std::string("Only ") + name(result.layers.front()) +
                                   " fits on this mesh, so strong noise and coarse quantization will erase the mark." +
                                   refusals);
-    if (check(marked.points) < 1)
+    if (check(first) < 1)
         throw DoesNotFit("The blind self-check did not read every bit back.", result.capacity);
-    return marked.points;
+    return first;
 }
 
 /// What a reader has to set, in one sentence.
@@ -192,7 +195,7 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     result.loose_pieces = body.loose_pieces;
     const Cover cover(body.surface);
     const bool floats = options.placement.storage == Storage::Float;
-    const auto as_stored = [&](const Points& placed) -> Surface {
+    const auto as_stored = [&](const Points& placed) {
         Points points = with_sites_at(body, surface.points, placed);
         if (floats) {
             const Points rounded = rounded_to_float(points);
@@ -200,11 +203,12 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
                 if (body.site_of_vertex[v] >= 0)
                     points[v] = rounded[v];
         }
-        return {std::move(points), surface.triangles};
+        return points;
     };
+    Surface marked{{}, surface.triangles};
     const auto check = [&](const Points& placed) {
         result.seconds["placement"] += watch.lap();
-        const Surface marked = as_stored(placed);
+        marked.points = as_stored(placed);
         const std::size_t warnings = result.warnings.size();
         result.detection_ratio = self_check(marked, key, options, result, progress);
         if (result.detection_ratio < 1)
@@ -213,7 +217,6 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
         return result.detection_ratio;
     };
     Points stored = put_on(cover, key, options, result.bits, result, check, progress);
-    Surface marked = as_stored(stored);
     if (floats)
         stored = rounded_to_float(stored);
 
