@@ -127,10 +127,13 @@ int main(int count, char** arguments)
     constexpr std::array<const char*, 5> names = {"cow.off", "femur.off", "bones.off", "blobby.off", "triceratops.off"};
     const Key owner("owner");
     std::vector<Key> strangers; // deriving one takes longer than most readings
-    for (int k = 0; k < keys; ++k) {
-        strangers.emplace_back("false alarm " + std::to_string(k));
-        (void)strangers.back().stream("one after the other: each takes 64 MiB").next();
-    }
+    const auto stranger = [&strangers](int k) -> const Key& {
+        while (static_cast<int>(strangers.size()) <= k) {
+            strangers.emplace_back("false alarm " + std::to_string(strangers.size()));
+            (void)strangers.back().stream("one after the other: each takes 64 MiB").next();
+        }
+        return strangers[k];
+    };
     Row all;
     for (const bool marked : {false, true})
         for (const MethodRow& method : all_methods())
@@ -156,7 +159,7 @@ int main(int count, char** arguments)
                     const int here = row_of(method.layers.front().first).method == Method::Waves ? keys / 10 : keys;
                     for (int k = static_cast<int>(mesh); k < here; k += names.size())
                         try {
-                            look(surface, strangers[k], options.carriers, static_cast<int>(k / names.size()), row);
+                            look(surface, stranger(k), options.carriers, static_cast<int>(k / names.size()), row);
                             ++row.keys;
                         } catch (const Error&) {
                             // refused: no claim
