@@ -25,10 +25,10 @@ VertexFaces vertex_faces(int vertices, const std::vector<Triangle>& triangles)
 
 Eigen::AlignedBox3d bounding_box(const Points& points)
 {
-    Eigen::AlignedBox3d box;
-    for (const Point& p : points)
-        box.extend(p);
-    return box;
+    using Box = Eigen::AlignedBox3d;
+    return ordered_fold(
+        static_cast<int>(points.size()), Box(), [&](Box& box, int v) { box.extend(points[v]); },
+        [](Box& box, const Box& part) { box.extend(part); });
 }
 
 Points rounded_to_float(const Points& points)

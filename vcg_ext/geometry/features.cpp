@@ -190,7 +190,7 @@ Features features_of(const SurfaceSamples& samples, double area, int count, cons
     return features;
 }
 
-NearnessGrid::NearnessGrid(const FootSearch& surface, double reach) : reach_(reach)
+NearnessGrid::NearnessGrid(const FootSearch& surface, double reach)
 {
     const Eigen::AlignedBox3d box = bounding_box(surface.surface());
     cell_ = (box.sizes().maxCoeff() + 2 * reach) / cells;
@@ -203,8 +203,10 @@ NearnessGrid::NearnessGrid(const FootSearch& surface, double reach) : reach_(rea
     nearness_.resize(all);
     for_chunks(static_cast<int>(all), 1024, [&](int begin, int end) {
         for (int i = begin; i < end; ++i) {
-            const Point middle = corner_ + cell_ * Point(i % count_[0] + 0.5, i / count_[0] % count_[1] + 0.5,
-                                                         i / (count_[0] * count_[1]) + 0.5);
+            const int x = i % count_[0];
+            const int y = i / count_[0] % count_[1];
+            const int z = i / (count_[0] * count_[1]);
+            const Point middle = corner_ + cell_ * Point(x + 0.5, y + 0.5, z + 0.5);
             const Foot foot = surface(middle, reach);
             nearness_[i] = foot.face < 0 ? 0 : static_cast<float>(std::max(0.0, 1 - foot.distance / reach));
         }

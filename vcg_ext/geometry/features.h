@@ -36,7 +36,6 @@ public:
 
 private:
     static constexpr int cells = 48; ///< along the longest side
-    double reach_;
     double cell_ = 0;
     Point corner_ = Point::Zero();
     std::array<int, 3> count_{};

@@ -38,8 +38,8 @@ double third_moment(const RawMoments& m, const Point& u)
 /// \return a frame with `measure` 0 where the moments define none
 Frame frame_of(Of of, const Points& points, const std::vector<Triangle>& triangles)
 {
-    const Eigen::AlignedBox3d box = bounding_box(points, triangles);
-    if (box.isEmpty())
+    const Eigen::AlignedBox3d box = bounding_box(points);
+    if (triangles.empty())
         return {};
     const Point near = box.center(); // moments about a point far away cancel badly
     const RawMoments m = raw_moments(of, points, triangles, near);

@@ -218,48 +218,60 @@ std::vector<StoredLanes> wave_products(const Columns& q)
     return result;
 }
 
-/// A cell's monomials, summed with the components of the normals.
-struct Sources {
-    std::array<double, monomials> by_normal[3] = {};
+/// As many points as there are lanes.
+struct Quad {
+    Lanes of[3] = {};
 
-    /// Adds a triangle: monomials by a rule of `points` points, exact to the second degree (3) or the fourth (6).
-    void add(const Point& a, const Point& b, const Point& c, const Point& n, bool tiny)
+    void put(int lane, const Point& p)
     {
-        std::array<double, monomials> mean{};
-        const auto point = [&](const Point& p, double weight) {
-            double power[3][degree + 1];
+        for (int axis = 0; axis < 3; ++axis)
+            of[axis][lane] = p[axis];
+    }
+};
+
+/// A cell's monomials, summed with the components of the normals; a lane sums each fourth triangle.
+struct Sources {
+    std::array<StoredLanes, monomials> by_normal[3] = {};
+
+    /// Adds triangles: monomials by a rule that is exact to the second degree (three points) or the fourth (six).
+    void add(const Quad& a, const Quad& b, const Quad& c, const Quad& n, bool tiny)
+    {
+        std::array<StoredLanes, monomials> mean{};
+        const auto point = [&](double of_a, double of_b, double of_c, double weight) {
+            Lanes power[3][degree + 1];
             for (int axis = 0; axis < 3; ++axis) {
-                power[axis][0] = 1;
+                const Lanes p = of_a * a.of[axis] + of_b * b.of[axis] + of_c * c.of[axis];
+                power[axis][0] = Lanes{} + 1;
                 for (int e = 1; e <= degree; ++e)
-                    power[axis][e] = power[axis][e - 1] * p[axis];
+                    power[axis][e] = power[axis][e - 1] * p;
             }
             for (int m = 0; m < monomials; ++m)
-                mean[m] += weight * (power[0][of_x[m].x] * power[1][of_x[m].y] * power[2][of_x[m].z]);
+                mean[m].value += weight * (power[0][of_x[m].x] * power[1][of_x[m].y] * power[2][of_x[m].z]);
+        };
+        const auto three = [&](double far, double near, double weight) {
+            point(far, near, near, weight);
+            point(near, far, near, weight);
+            point(near, near, far, weight);
         };
         if (tiny) {
-            point((a + b) / 2, 1.0 / 3);
-            point((b + c) / 2, 1.0 / 3);
-            point((c + a) / 2, 1.0 / 3);
+            three(0, 0.5, 1.0 / 3);
         } else { // Dunavant's rule of degree 4
-            const auto three = [&](double far, double near, double weight) {
-                point(far * a + near * (b + c), weight);
-                point(far * b + near * (c + a), weight);
-                point(far * c + near * (a + b), weight);
-            };
             three(0.108103018168070, 0.445948490915965, 0.223381589678011);
             three(0.816847572980459, 0.091576213509771, 0.109951743655322);
         }
         for (int axis = 0; axis < 3; ++axis)
             for (int m = 0; m < monomials; ++m)
-                by_normal[axis][m] += n[axis] * mean[m];
+                by_normal[axis][m].value += n.of[axis] * mean[m].value;
     }
 
     [[nodiscard]] std::array<double, products> polynomial() const
     {
         std::array<double, products> c{};
         for (int m = 0; m < monomials; ++m)
-            for (int axis = 0; axis < 3; ++axis)
-                c[table.product[m][axis]] += table.factor[m] * by_normal[axis][m];
+            for (int axis = 0; axis < 3; ++axis) {
+                const Lanes& sum = by_normal[axis][m].value;
+                c[table.product[m][axis]] += table.factor[m] * (sum[0] + sum[1] + sum[2] + sum[3]);
+            }
         return c;
     }
 };
@@ -377,10 +389,18 @@ VCG_EXT_VECTORIZED void add_cell(const Columns& q, const std::vector<StoredLanes
 {
     const Point& centre = grid.centres[cell];
     cells::Sources sources;
-    for (int j = grid.first[cell]; j < grid.first[cell + 1]; ++j) {
-        const Triangle& t = triangles[grid.triangle[j]];
-        sources.add(points[t[0]] - centre, points[t[1]] - centre, points[t[2]] - centre, scaled_normal(points, t) / 2,
-                    spread_of(points, t, largest) < 0.12);
+    for (int j = grid.first[cell]; j < grid.first[cell + 1]; j += lanes) {
+        cells::Quad a, b, c, n; // lanes beyond the last have no normal, and add nothing
+        bool tiny = true;
+        for (int lane = 0; lane < std::min(lanes, grid.first[cell + 1] - j); ++lane) {
+            const Triangle& t = triangles[grid.triangle[j + lane]];
+            a.put(lane, points[t[0]] - centre);
+            b.put(lane, points[t[1]] - centre);
+            c.put(lane, points[t[2]] - centre);
+            n.put(lane, scaled_normal(points, t) / 2);
+            tiny = tiny && spread_of(points, t, largest) < 0.12;
+        }
+        sources.add(a, b, c, n, tiny);
     }
     cells::add(q, powers, centre, sources.polynomial(), sums);
 }

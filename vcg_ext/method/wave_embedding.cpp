@@ -18,7 +18,7 @@ namespace vcg_ext {
 namespace {
 
 constexpr int most_rounds = 12;
-constexpr double near_enough = 0.01; ///< of a step
+constexpr double near_enough = 0.025; ///< of a step, a twentieth of what the part leaves undone
 /// Of the way to its target that a wave goes at least. Where it goes less than all of it, steps are longer for the same
 /// displacement: strong attacks do less harm for what that costs where there is none (distortion-compensated QIM, Chen
 /// and Wornell 2001).
