@@ -94,6 +94,18 @@ TEST(CarriedValues, SeamsShowOnePlaceFromBothSides)
     EXPECT_GT(on_seam, 40);
 }
 
+TEST(OnSeams, IsWhereAPositionShowsTwoThings)
+{
+    // Two triangles of four vertices, and the second's corner that is there twice by another vertex.
+    const Surface sheet{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}}, {{0, 1, 2}, {4, 3, 2}}};
+    CornerValues values;
+    values.channels = 1;
+    values.values = {0, 1, 2, /* the second triangle's */ 1, 3, 2};
+    EXPECT_EQ(on_seams(sheet, values), std::vector<char>(5, 0));
+    values.values[3] = 1.5;
+    EXPECT_EQ(on_seams(sheet, values), (std::vector<char>{0, 1, 0, 0, 1}));
+}
+
 TEST(CarriedValues, StretchIsTheSingularValueThatIsLeft)
 {
     // Pulled out threefold along x: nothing can make up for that, and the factor is 3.

@@ -119,6 +119,21 @@ TEST_P(EveryMethod, KeepsASoupClosed)
     EXPECT_EQ(read(weld(torn).surface, options).bits, welded.bits);
 }
 
+TEST_P(EveryMethod, LeavesHeldVertices)
+{
+    Surface cover = load("armadillo.off");
+    cover.points = rounded_to_float(cover.points);
+    options.held.resize(cover.points.size());
+    for (std::size_t v = 0; v < cover.points.size(); v += 7)
+        options.held[v] = 1;
+    Surface marked = cover;
+    EXPECT_EQ(embed(marked, test_key(), options).detection_ratio, 1);
+    EXPECT_TRUE(*read(marked, options).present);
+    const bool slides = !row_of(options.carriers.method).is_smooth;
+    for (std::size_t v = 0; slides && v < cover.points.size(); v += 7)
+        EXPECT_EQ(marked.points[v], cover.points[v]);
+}
+
 TEST_P(EveryMethod, GivesTheSameAtAnyNumberOfThreads)
 {
     Surface alone = load("fandisk.off");

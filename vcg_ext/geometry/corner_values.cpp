@@ -295,4 +295,16 @@ CarriedValues carried_values(const Surface& cover, const CornerValues& values, c
     return result;
 }
 
+std::vector<char> on_seams(const Surface& cover, const CornerValues& values)
+{
+    const Welded welded = weld(cover);
+    const Charts charts =
+        charts_of(cover, welded.site_of_vertex, static_cast<int>(welded.surface.points.size()), values);
+    std::vector<char> result(cover.points.size(), 0);
+    for (std::size_t v = 0; v < result.size(); ++v)
+        if (const int site = welded.site_of_vertex[v]; site >= 0)
+            result[v] = static_cast<char>(charts.first_of_site[site + 1] - charts.first_of_site[site] > 1);
+    return result;
+}
+
 } // namespace vcg_ext

@@ -36,4 +36,7 @@ struct CarriedValues {
 /// \param moved positions of the cover's vertices, those at one position still at one
 [[nodiscard]] CarriedValues carried_values(const Surface& cover, const CornerValues& values, const Points& moved);
 
+/// Per vertex whether its position shows more than one set of values, as along the seams of a texture.
+[[nodiscard]] std::vector<char> on_seams(const Surface& cover, const CornerValues& values);
+
 } // namespace vcg_ext

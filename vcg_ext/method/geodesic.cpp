@@ -9,13 +9,15 @@ namespace vcg_ext {
 namespace {
 
 /// What a vertex aims at: what it was told to, or its old distance, since a front that is moved before it would take it
-/// along. Vertices before the first strip stay, as the front comes to them unchanged; so does the source's own face.
-std::vector<double> front_targets(const Strips& strips, const Triangle& source_face, const std::vector<double>& told)
+/// along. Vertices before the first strip stay, as the front comes to them unchanged; so do the source's own face and
+/// those that are held.
+std::vector<double> front_targets(const Cover& cover, const Strips& strips, const Triangle& source_face,
+                                  const std::vector<double>& told)
 {
     std::vector<double> targets(strips.arrivals.size(), std::numeric_limits<double>::quiet_NaN());
     for (int v = 0; v < strips.carrying; ++v) {
         const double old = strips.arrivals[v].distance;
-        if (old >= strips.carriers.low && std::isfinite(old))
+        if (old >= strips.carriers.low && std::isfinite(old) && !cover.holds(v))
             targets[v] = std::isnan(told[v]) ? old : told[v];
     }
     for (const int v : source_face)
@@ -53,8 +55,8 @@ StripFrame found(const SolidTopology& topology, const Points& vertices, const Pl
 class Distance {
 public:
     Distance(const Cover& cover, const Plan& plan, FrontScheme scheme)
-        : topology_(solid_topology(cover.surface)), closed_(closed(topology_, cover.points)), cover_(closed_),
-          plan_(plan), scheme_(scheme)
+        : topology_(solid_topology(cover.surface)), closed_(closed(topology_, cover.points)),
+          cover_(closed_, cover.held), plan_(plan), scheme_(scheme)
     {
     }
 
@@ -91,17 +93,22 @@ public:
     /// shares.
     [[nodiscard]] std::vector<double> mobility() const
     {
-        return scheme_ == FrontScheme::PredictCorrect ? front_mobility(cover_, strips_.arrivals)
-                                                      : std::vector<double>(cover_.points.size(), 1);
+        std::vector<double> result = scheme_ == FrontScheme::PredictCorrect
+                                         ? front_mobility(cover_, strips_.arrivals)
+                                         : std::vector<double>(cover_.points.size(), 1);
+        for (std::size_t v = 0; v < cover_.held.size(); ++v)
+            if (cover_.held[v])
+                result[v] = 0;
+        return result;
     }
 
     [[nodiscard]] Proposal place(const std::vector<double>& told) const
     {
         FrontOptions front;
         front.scheme = scheme_;
-        FrontPlacement placed =
-            place_front(cover_, strips_.arrivals, front_targets(strips_, cover_.triangles[frame_.source.face], told),
-                        1e-4 * strips_.carriers.width, front);
+        FrontPlacement placed = place_front(cover_, strips_.arrivals,
+                                            front_targets(cover_, strips_, cover_.triangles[frame_.source.face], told),
+                                            1e-4 * strips_.carriers.width, front);
         Proposal proposal;
         proposal.points = std::move(placed.points);
         proposal.points.resize(topology_.sites);

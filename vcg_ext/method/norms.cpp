@@ -161,7 +161,7 @@ public:
         const double most = *range.second;
         std::vector<double> result(norms_.size());
         for_each_index(static_cast<int>(result.size()),
-                       [&](int v) { result[v] = norms_[v] == least || norms_[v] == most ? 0 : 1; });
+                       [&](int v) { result[v] = norms_[v] == least || norms_[v] == most || cover_.holds(v) ? 0 : 1; });
         return result;
     }
 

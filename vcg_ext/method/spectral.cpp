@@ -210,7 +210,7 @@ std::vector<int> bits_of_patches(const PatchReading& reading, const Plan& plan, 
 
 /// Moves the vertices of the patches that lack margin; all but those that fulfil their condition `at_first`.
 void reshape(const PatchReading& reading, const Plan& plan, const std::vector<int>& wanted, const Aim& aim,
-             const Points& normals, bool at_first, Points& points)
+             const Cover& cover, const Points& normals, bool at_first, Points& points)
 {
     for_chunks(static_cast<int>(wanted.size()), 1, [&](int k, int) {
         const PatchShape& shape = reading.shapes[k];
@@ -223,7 +223,8 @@ void reshape(const PatchReading& reading, const Plan& plan, const std::vector<in
                                                      : least_change(shape, reading.band, normals, vertices, squash,
                                                                     ratio, squash ? aim.energy : aim.energy / 4);
         for (std::size_t i = 0; i < moves.size(); ++i)
-            points[vertices[i]] += moves[i];
+            if (!cover.holds(vertices[i]))
+                points[vertices[i]] += moves[i];
     });
 }
 
@@ -297,7 +298,7 @@ Marking embed_spectral(const Cover& cover, const Plan& plan, const Bits& coded, 
 
     Points points = surface.points;
     const auto propose = [&](int round) {
-        reshape(reading, plan, wanted(), aim, normals, round == 1, points);
+        reshape(reading, plan, wanted(), aim, cover, normals, round == 1, points);
         Proposal proposal;
         proposal.guarded_vertices = plan.options.as_printed ? 0 : guard(cover, points);
         proposal.points = points;

@@ -5,14 +5,15 @@
 #include "../geometry/size.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace vcg_ext {
 
 /// The unmarked surface with what placements ask of it, computed once.
 struct Cover {
     /// \param unmarked must outlive the cover
-    explicit Cover(const Surface& unmarked)
-        : surface(unmarked), points(surface.points), triangles(surface.triangles),
+    explicit Cover(const Surface& unmarked, std::vector<char> fixed = {})
+        : surface(unmarked), points(surface.points), triangles(surface.triangles), held(std::move(fixed)),
           around(vertex_faces(static_cast<int>(points.size()), triangles)), normals(face_normals(points, triangles)),
           areas(doubled_areas(points, triangles))
     {
@@ -21,9 +22,12 @@ struct Cover {
     const Surface& surface;
     const Points& points;
     const std::vector<Triangle>& triangles;
+    std::vector<char> held; ///< per vertex whether it must not slide; those beyond the last may
     VertexFaces around;
     Points normals;            ///< of faces, unit; zero where a face has no area
     std::vector<double> areas; ///< of faces, doubled
+
+    [[nodiscard]] bool holds(int v) const { return v < static_cast<int>(held.size()) && held[v]; }
 };
 
 /// Whether a face no longer lies as on the cover: turned by more than 60 degrees, or down to a twentieth of its area.

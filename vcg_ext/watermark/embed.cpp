@@ -24,12 +24,14 @@ namespace {
 
 constexpr double visible = 5e-4; ///< MRMS over the diagonal
 
-EmbedOptions completed(EmbedOptions options)
+EmbedOptions completed(EmbedOptions options, std::size_t vertices)
 {
     options.carriers.check();
     options.placement.check();
     if (options.carriers.bits == 0)
         options.carriers.bits = recommended_carriers(options.message);
+    if (!options.held.empty() && options.held.size() != vertices)
+        throw Error("Vertices that are held must be said for each vertex, or for none.");
     options.placement.strength = checked_strength(options.carriers, options.placement.strength);
     return options;
 }
@@ -102,7 +104,7 @@ Points put_on(const Cover& cover, const Key& key, const EmbedOptions& options, c
         const auto& [method, strength] = wanted.layers[i];
         if (i == 1) {
             marked = {first, cover.triangles};
-            below.emplace(marked);
+            below.emplace(marked, cover.held);
         }
         try {
             Marking marking =
@@ -130,6 +132,15 @@ Points put_on(const Cover& cover, const Key& key, const EmbedOptions& options, c
     if (check(first) < 1)
         throw DoesNotFit("The blind self-check did not read every bit back.", result.capacity);
     return first;
+}
+
+std::vector<char> held_sites(const Body& body, const std::vector<char>& held)
+{
+    std::vector<char> result(held.empty() ? 0 : body.surface.points.size(), 0);
+    for (std::size_t v = 0; v < held.size(); ++v)
+        if (held[v] && body.site_of_vertex[v] >= 0)
+            result[body.site_of_vertex[v]] = 1;
+    return result;
 }
 
 /// What a reader has to set, in one sentence.
@@ -180,7 +191,7 @@ void warn(const EmbedOptions& options, EmbedReport& result)
 
 EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, const Progress& progress)
 {
-    const EmbedOptions options = completed(wanted);
+    const EmbedOptions options = completed(wanted, surface.points.size());
     report(progress, 0, "Finding carriers");
     Stopwatch watch;
     const Body body = body_of(surface);
@@ -193,7 +204,7 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     result.carriers = options.carriers.bits;
     result.pieces = body.pieces;
     result.loose_pieces = body.loose_pieces;
-    const Cover cover(body.surface);
+    const Cover cover(body.surface, held_sites(body, options.held));
     const bool floats = options.placement.storage == Storage::Float;
     const auto as_stored = [&](const Points& placed) {
         Points points = with_sites_at(body, surface.points, placed);
@@ -240,7 +251,7 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
 int carriers_that_fit(const Surface& surface, const Key& key, const EmbedOptions& wanted, const DoesNotFit& cause,
                       const Progress& progress)
 {
-    EmbedOptions options = completed(wanted);
+    EmbedOptions options = completed(wanted, surface.points.size());
     const int needed = options.message.kind == Kind::Bits ? 1 : static_cast<int>(options.message.bits.size());
     const int most = 3 * options.carriers.bits / 4;
     int count = cause.roomy() > 0 ? std::min(most, 3 * cause.roomy() / 4) : most;

@@ -12,6 +12,9 @@ struct EmbedOptions {
     CarrierOptions carriers; ///< `bits` 0: as many as are recommended for the message
     Message message;
     PlacementOptions placement;
+    /// Per vertex whether it must not slide along the surface, as on the seams of a texture; empty: none. Waves, which
+    /// moves all of the surface, and hardly at all along itself, asks nothing of it.
+    std::vector<char> held;
 };
 
 struct DetectOptions {
