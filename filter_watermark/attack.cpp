@@ -43,13 +43,17 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
     options.iterations = values.getInt("Iterations");
     options.seed = read_seed(values);
 
-    vcg_ext::Surface surface = read_surface(layer.cm);
+    const bool stretched = is_stretched(layer);
+    vcg_ext::Surface surface = read_surface(layer);
     const vcg_ext::AttackReport report = apply_attack(surface, options, progress);
     if (report.positions_only)
         write_positions(layer, surface.points);
     else
         write_surface(layer, surface);
-    return to_json(report);
+    Json results = to_json(report);
+    if (stretched)
+        results["warnings"] = {stretched_as_written};
+    return results;
 }
 
 } // namespace

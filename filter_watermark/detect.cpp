@@ -37,8 +37,10 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
     const vcg_ext::Key key = read_key(values);
     ReportFile file(values.getSaveFileName("Report"));
 
-    const vcg_ext::DetectReport report = detect(read_surface(layer.cm), key, options, progress);
+    const vcg_ext::DetectReport report = detect(read_surface(layer), key, options, progress);
     Json results = to_json(report);
+    if (is_stretched(layer))
+        results["warnings"].push_back(stretched_as_read);
     const bool shows = values.getBool("ShowCarriers");
     if (shows && report.carrier_of_vertex.empty())
         results["warnings"].push_back("There are no carriers to show: those of this method are no sets of vertices.");

@@ -70,7 +70,8 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
     const vcg_ext::Key key = read_key(values);
     ReportFile file(values.getSaveFileName("Report"));
 
-    vcg_ext::Surface surface = read_surface(layer.cm);
+    const bool stretched = is_stretched(layer);
+    vcg_ext::Surface surface = read_surface(layer);
     const bool rehearses = values.getBool("Rehearse");
     const vcg_ext::EmbedReport embedded =
         embed_or_advise(surface, key, options, vcg_ext::within(progress, 0, rehearses ? 50 : 100));
@@ -83,9 +84,11 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
     const vcg_ext::CornerValues shown = read_corner_values(layer);
     std::optional<vcg_ext::CarriedValues> carried;
     if (shown.channels > 0)
-        carried = carried_values(read_surface(layer.cm), shown, surface.points);
+        carried = carried_values(read_surface(layer), shown, surface.points);
     if (carried && has_texture(layer))
         report["texture_stretch"] = carried->stretch;
+    if (stretched)
+        report["warnings"].push_back(stretched_as_written);
     file.write(report);
     write_positions(layer, surface.points);
     if (carried)
@@ -100,8 +103,8 @@ const Filter embed_filter = {"Watermark: Embed",
                              HostInterface::Smoothing,
                              HostInterface::SINGLE_MESH,
                              MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL | MeshModel::MM_FACENORMAL |
-                                 MeshModel::MM_VERTCOLOR | MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTTEXCOORD |
-                                 MeshModel::MM_WEDGTEXCOORD,
+                                 MeshModel::MM_TRANSFMATRIX | MeshModel::MM_VERTCOLOR | MeshModel::MM_VERTQUALITY |
+                                 MeshModel::MM_VERTTEXCOORD | MeshModel::MM_WEDGTEXCOORD,
                              info,
                              parameters,
                              run};

@@ -4,6 +4,7 @@
 #include <vcg_ext/base/error.h>
 #include <vcg_ext/base/parallel.h>
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
@@ -15,8 +16,41 @@ MeshModel& current_layer_or_error(MeshDocument& document)
     throw vcg_ext::Error("There is no mesh. Open one first.");
 }
 
-vcg_ext::Surface read_surface(const CMeshO& mesh)
+namespace {
+
+constexpr double rounding = 1e-5; ///< of a similarity that went through products of floats; no mark notices
+
+Eigen::Matrix4d matrix_of(const MeshModel& layer)
 {
+    Eigen::Matrix4d matrix;
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j)
+            matrix(i, j) = double(layer.cm.Tr.ElementAt(i, j));
+    return matrix;
+}
+
+} // namespace
+
+bool is_stretched(const MeshModel& layer)
+{
+    const Eigen::Matrix4d matrix = matrix_of(layer);
+    const bool affine = matrix.allFinite() && matrix.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1));
+    const Eigen::Matrix3d linear = affine ? matrix.topLeftCorner<3, 3>().eval() : Eigen::Matrix3d::Zero().eval();
+    const Eigen::Vector3d scales = Eigen::JacobiSVD<Eigen::Matrix3d>(linear).singularValues();
+    if (scales[2] <= 1e-6 * scales[0])
+        throw vcg_ext::Error("The layer's matrix is singular: it leaves no body to look at. Set another one, or apply "
+                             "'Matrix: Reset Current Matrix' (in Python: set_matrix_identity).");
+    return scales[0] > (1 + rounding) * scales[2];
+}
+
+vcg_ext::Surface read_surface(const MeshModel& layer)
+{
+    return read_surface(layer, is_stretched(layer));
+}
+
+vcg_ext::Surface read_surface(const MeshModel& layer, bool with_matrix)
+{
+    const CMeshO& mesh = layer.cm;
     vcg_ext::Surface surface;
     std::vector<int> index(mesh.vert.size(), -1);
     surface.points.reserve(mesh.vn);
@@ -34,6 +68,11 @@ vcg_ext::Surface read_surface(const CMeshO& mesh)
         const auto corner = [&](int j) { return index[face.cV(j) - mesh.vert.data()]; };
         surface.triangles.push_back({corner(0), corner(1), corner(2)});
     }
+    if (with_matrix) {
+        const Eigen::Affine3d matrix(matrix_of(layer));
+        for (vcg_ext::Point& point : surface.points)
+            point = matrix * point;
+    }
     return surface;
 }
 
@@ -49,8 +88,11 @@ void for_each_vertex(MeshModel& layer, const Values& values, const Write& write)
             write(vertex, *value++);
 }
 
+/// Points that read_surface() gave: a matrix that stretches is in them.
 void put_points(MeshModel& layer, const vcg_ext::Points& points)
 {
+    if (is_stretched(layer))
+        layer.cm.Tr.SetIdentity();
     for_each_vertex(layer, points, [](CVertexO& vertex, const vcg_ext::Point& point) {
         vertex.P() = Point3m(Scalarm(point.x()), Scalarm(point.y()), Scalarm(point.z()));
     });
@@ -190,10 +232,12 @@ void write_distances(MeshModel& layer, const std::vector<double>& distance_of_ve
 
 MeshModel& add_copy(MeshDocument& document, const MeshModel& layer, const QString& label)
 {
-    const vcg_ext::Surface surface = read_surface(layer.cm);
+    const bool stretched = is_stretched(layer);
+    const vcg_ext::Surface surface = read_surface(layer, stretched);
     MeshModel& copy = *document.addNewMesh(QString(), label, false);
     write_surface(copy, surface);
-    copy.cm.Tr = layer.cm.Tr;
+    if (!stretched)
+        copy.cm.Tr = layer.cm.Tr;
     return copy;
 }
 

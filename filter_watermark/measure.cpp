@@ -14,7 +14,7 @@ constexpr const char* info =
     "reference's bounding-box diagonal), signal to noise, the perceptual distance MSDM, changes of volume and area.<br>"
     "The vertices get their distance to the reference as quality, and a colour from it, unless they have one: red is near, "
     "blue a thousandth of the diagonal or more. "
-    "Layers are compared as they lie in their files, without their matrices.<br>"
+    "Layers are compared without their matrices, unless one of these stretches its layer.<br>"
     "See:<br><i>Paolo Cignoni, Claudio Rocchini, Roberto Scopigno</i><br><b>\"Metro: measuring error on simplified "
     "surfaces\"</b>"
     "<br>Computer Graphics Forum 17(2), 1998<br>"
@@ -44,8 +44,10 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
         throw vcg_ext::Error("Reference is the layer that is measured. Open the other mesh too, or choose its layer.");
     ReportFile file(values.getSaveFileName("Report"));
 
+    const std::array stretched = {is_stretched(*reference), is_stretched(layer)};
+    const bool with_matrices = stretched[0] || stretched[1];
     const vcg_ext::DistortionReport report =
-        measure(read_surface(reference->cm), read_surface(layer.cm), options, progress);
+        measure(read_surface(*reference, with_matrices), read_surface(layer, with_matrices), options, progress);
     Json results = to_json(report);
     constexpr double plain = 1e-3; // of the diagonal: nobody would overlook that
     const double diagonal = report.mrms_relative > 0 ? report.mrms / report.mrms_relative : 1;
@@ -53,6 +55,8 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
                                 "had are kept, and distances are its vertices' quality.")
                             .arg(plain * diagonal, 0, 'g', 3)
                             .toStdString();
+    if (with_matrices)
+        results["warnings"].push_back(stretched_as_read);
     file.write(results);
     write_distances(layer, report.distance, plain * diagonal);
     return results;

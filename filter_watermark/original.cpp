@@ -14,8 +14,8 @@ constexpr const char* info =
     "original by shape alone first; the log and the report say where and how well it fits, and name a mesh that is no "
     "copy of this original.<br>"
     "<i>p_value</i> and <i>p_message</i> are true upper bounds, as those of Detect. Method, Statistic and Trim must be "
-    "those of embedding. Waves and Layered survive the most. Layers are taken as they lie in their files, without their "
-    "matrices; both stay as they are.";
+    "those of embedding. Waves and Layered survive the most. Layers are taken without their "
+    "matrices, unless these stretch them; both stay as they are.";
 
 RichParameterList parameters(const MeshDocument& document)
 {
@@ -44,8 +44,9 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
     const vcg_ext::Key key = read_key(values);
     ReportFile file(values.getSaveFileName("Report"));
 
-    const Json results =
-        to_json(detect_with_original(read_surface(layer.cm), read_surface(original->cm), key, options, progress));
+    Json results = to_json(detect_with_original(read_surface(layer), read_surface(*original), key, options, progress));
+    if (is_stretched(layer) || is_stretched(*original))
+        results["warnings"].push_back(stretched_as_read);
     file.write(results);
     return results;
 }
