@@ -16,6 +16,17 @@ MeshModel& current_layer_or_error(MeshDocument& document)
     throw vcg_ext::Error("There is no mesh. Open one first.");
 }
 
+const MeshModel& other_layer(const RichParameterList& values, const QString& parameter, MeshDocument& document)
+{
+    const MeshModel* layer = layer_value(values, parameter, document);
+    const std::string name = parameter.toStdString();
+    if (!layer)
+        throw vcg_ext::Error("There is no layer for " + name + ". Open that mesh too, and choose its layer.");
+    if (layer == document.mm())
+        throw vcg_ext::Error(name + " is the current layer itself. Open the other mesh too, and choose its layer.");
+    return *layer;
+}
+
 namespace {
 
 constexpr double rounding = 1e-5; ///< of a similarity that went through products of floats; no mark notices

@@ -7,6 +7,10 @@
 /// The current layer. \throw vcg_ext::Error where the document has none
 MeshModel& current_layer_or_error(MeshDocument& document);
 
+/// The layer that a parameter names, to be held against the current one.
+/// \throw vcg_ext::Error where it is none, or the current one
+const MeshModel& other_layer(const RichParameterList& values, const QString& parameter, MeshDocument& document);
+
 /// Whether the layer's matrix is no similarity: what is seen is then of another shape than what its points make up.
 /// \throw vcg_ext::Error where it is singular
 bool is_stretched(const MeshModel& layer);

@@ -34,20 +34,16 @@ RichParameterList parameters(const MeshDocument& document)
 Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext::Progress& progress)
 {
     MeshModel& layer = current_layer_or_error(document);
-    const MeshModel* reference = layer_value(values, "Reference", document);
-    if (!reference)
-        throw vcg_ext::Error("There is no such reference layer. Open the reference mesh, and choose its layer.");
+    const MeshModel& reference = other_layer(values, "Reference", document);
     vcg_ext::DistortionOptions options;
     options.samples = values.getInt("Samples");
     options.seed = read_seed(values);
-    if (reference == &layer)
-        throw vcg_ext::Error("Reference is the layer that is measured. Open the other mesh too, or choose its layer.");
     ReportFile file(values.getSaveFileName("Report"));
 
-    const std::array stretched = {is_stretched(*reference), is_stretched(layer)};
+    const std::array stretched = {is_stretched(reference), is_stretched(layer)};
     const bool with_matrices = stretched[0] || stretched[1];
     const vcg_ext::DistortionReport report =
-        measure(read_surface(*reference, with_matrices), read_surface(layer, with_matrices), options, progress);
+        measure(read_surface(reference, with_matrices), read_surface(layer, with_matrices), options, progress);
     Json results = to_json(report);
     constexpr double plain = 1e-3; // of the diagonal: nobody would overlook that
     const double diagonal = report.mrms_relative > 0 ? report.mrms / report.mrms_relative : 1;

@@ -32,20 +32,15 @@ RichParameterList parameters(const MeshDocument& document)
 Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext::Progress& progress)
 {
     MeshModel& layer = current_layer_or_error(document);
-    const MeshModel* original = layer_value(values, "Original", document);
-    if (!original)
-        throw vcg_ext::Error("There is no such original layer. Open the unmarked mesh, and choose its layer.");
-    if (original == &layer)
-        throw vcg_ext::Error("The original is the current layer itself. Open both meshes, make the one to be examined "
-                             "the current layer, and choose the unmarked one as Original.");
+    const MeshModel& original = other_layer(values, "Original", document);
     vcg_ext::DetectOptions options;
     options.carriers = read_carrier_options(values);
     options.expected = read_expected(values);
     const vcg_ext::Key key = read_key(values);
     ReportFile file(values.getSaveFileName("Report"));
 
-    Json results = to_json(detect_with_original(read_surface(layer), read_surface(*original), key, options, progress));
-    if (is_stretched(layer) || is_stretched(*original))
+    Json results = to_json(detect_with_original(read_surface(layer), read_surface(original), key, options, progress));
+    if (is_stretched(layer) || is_stretched(original))
         results["warnings"].push_back(stretched_as_read);
     file.write(results);
     return results;

@@ -323,7 +323,7 @@ def test_measuring_takes_the_other_layer_and_keeps_colours(marked: Path) -> None
     colors = meshes.current_mesh().vertex_color_matrix().copy()
     assert meshes.apply_filter("get_watermark_distortion")["mrms"] > 0
     np.testing.assert_array_equal(meshes.current_mesh().vertex_color_matrix(), colors)
-    with pytest.raises(pymeshlab.PyMeshLabException, match="layer that is measured"):
+    with pytest.raises(pymeshlab.PyMeshLabException, match="current layer itself"):
         meshes.apply_filter("get_watermark_distortion", reference=1)
     PyMeshLab.failed.append(meshes)
 
