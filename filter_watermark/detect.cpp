@@ -41,6 +41,8 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
     Json results = to_json(report);
     if (is_stretched(layer))
         results["warnings"].push_back(stretched_as_read);
+    if (const std::string others = about_other_layers(document, "was looked at"); !others.empty())
+        results["warnings"].push_back(others);
     const bool shows = values.getBool("ShowCarriers");
     if (shows && report.carrier_of_vertex.empty())
         results["warnings"].push_back("There are no carriers to show: those of this method are no sets of vertices.");

@@ -89,6 +89,8 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
         report["texture_stretch"] = carried->stretch;
     if (stretched)
         report["warnings"].push_back(stretched_as_written);
+    if (const std::string others = about_other_layers(document, "carries the mark"); !others.empty())
+        report["warnings"].push_back(others);
     file.write(report);
     write_positions(layer, surface.points);
     if (carried)

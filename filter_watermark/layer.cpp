@@ -16,6 +16,16 @@ MeshModel& current_layer_or_error(MeshDocument& document)
     throw vcg_ext::Error("There is no mesh. Open one first.");
 }
 
+std::string about_other_layers(MeshDocument& document, const std::string& what)
+{
+    const MeshModel& layer = *document.mm();
+    const int others = visible_layers(document) - int(layer.isVisible());
+    if (others == 0)
+        return {};
+    return "Only layer '" + layer.label().toStdString() + "' of " + std::to_string(1 + others) + " " + what +
+           ". Where they are parts of one body, apply 'Flatten Visible Layers' first.";
+}
+
 const MeshModel& other_layer(const RichParameterList& values, const QString& parameter, MeshDocument& document)
 {
     const MeshModel* layer = layer_value(values, parameter, document);

@@ -7,6 +7,10 @@
 /// The current layer. \throw vcg_ext::Error where the document has none
 MeshModel& current_layer_or_error(MeshDocument& document);
 
+/// Where other layers are seen beside the current one, which of them this is and what became of it alone ("carries the
+/// mark"); else empty.
+std::string about_other_layers(MeshDocument& document, const std::string& what);
+
 /// The layer that a parameter names, to be held against the current one.
 /// \throw vcg_ext::Error where it is none, or the current one
 const MeshModel& other_layer(const RichParameterList& values, const QString& parameter, MeshDocument& document);

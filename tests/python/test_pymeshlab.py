@@ -300,6 +300,20 @@ def test_an_stl_stays_closed_and_its_mark_survives_into_ply(tmp_path: Path) -> N
     assert found["detection_ratio"] == 1
 
 
+def test_of_several_layers_it_is_said_which_one(marked: Path) -> None:
+    meshes = opened(marked, FANDISK)
+    for current, name in ((0, "bunny.ply"), (1, "fandisk.off")):
+        meshes.set_current_mesh(current)
+        found = PyMeshLab().apply(meshes, DETECT, **LM)
+        assert [warning for warning in found["warnings"] if f"layer '{name}' of 2 was looked at" in warning]
+    embedded = PyMeshLab().apply(meshes, EMBED, **MARK)
+    assert [warning for warning in embedded["warnings"] if "layer 'fandisk.off' of 2 carries the mark" in warning]
+    meshes.set_current_mesh(0)
+    meshes.set_current_mesh_visibility(False)
+    meshes.set_current_mesh(1)
+    assert PyMeshLab().apply(meshes, DETECT, **LM)["warnings"] == []  # what is hidden does not count
+
+
 def test_carriers_are_shown(marked: Path) -> None:
     meshes = opened(marked)
     positions = meshes.current_mesh().vertex_matrix()
