@@ -46,9 +46,10 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
     const bool stretched = is_stretched(layer);
     vcg_ext::Surface surface = read_surface(layer);
     const vcg_ext::AttackReport report = apply_attack(surface, options, progress);
-    if (report.positions_only)
-        write_positions(layer, surface.points);
-    else
+    if (report.positions_only) {
+        NormalShares shares(faces_at_a_time);
+        write_positions(layer, surface.points, shares);
+    } else {
         write_surface(layer, surface);
     Json results = to_json(report);
     if (stretched)
@@ -57,6 +58,7 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
 }
 
 } // namespace
+    }
 
 const Filter attack_filter = {"Watermark: Attack",
                               "apply_watermark_attack",

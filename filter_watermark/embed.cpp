@@ -91,8 +91,9 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
         report["warnings"].push_back(stretched_as_written);
     if (const std::string others = about_other_layers(document, "carries the mark"); !others.empty())
         report["warnings"].push_back(others);
-    file.write(report);
-    write_positions(layer, surface.points);
+    NormalShares shares(faces_at_a_time);
+    file.write(report); // the last that can fail
+    write_positions(layer, surface.points, shares);
     if (carried)
         write_corner_values(layer, carried->values);
     return report;

@@ -130,14 +130,9 @@ std::array<Point3m, 3> normals_by_angle(const CFaceO& face)
     return {normal * vcg::AngleN(e0, -e2), normal * vcg::AngleN(-e0, e1), normal * vcg::AngleN(-e1, e2)};
 }
 
-constexpr int piece = 1 << 16; ///< faces whose normals are in work at a time
-
-/// What update_box_and_normals() works in. Made before the mesh is changed: where memory is missing, it is missed here.
-using NormalShares = std::vector<std::array<Point3m, 3>>;
-
 /// What MeshLab's own update does on one core, with the same sums in the same order, on all of them: at 600,000
 /// vertices in a third of the time, which is a tenth of an embedding.
-/// \param shares room for a piece
+/// \param shares of `faces_at_a_time`
 void update_box_and_normals(CMeshO& mesh, NormalShares& shares)
 {
     vcg::tri::UpdateBounding<CMeshO>::Box(mesh);
@@ -145,8 +140,8 @@ void update_box_and_normals(CMeshO& mesh, NormalShares& shares)
         if (!face.IsD())
             for (int corner = 0; corner < 3; ++corner)
                 face.V(corner)->N() = Point3m(0, 0, 0);
-    for (std::size_t first = 0; first < mesh.face.size(); first += piece) {
-        const int count = int(std::min<std::size_t>(piece, mesh.face.size() - first));
+    for (std::size_t first = 0; first < mesh.face.size(); first += faces_at_a_time) {
+        const int count = int(std::min<std::size_t>(faces_at_a_time, mesh.face.size() - first));
         vcg_ext::for_each_index(count, [&](int i) {
             CFaceO& face = mesh.face[first + i];
             if (face.IsD())
@@ -163,9 +158,8 @@ void update_box_and_normals(CMeshO& mesh, NormalShares& shares)
 
 } // namespace
 
-void write_positions(MeshModel& layer, const vcg_ext::Points& points)
+void write_positions(MeshModel& layer, const vcg_ext::Points& points, NormalShares& shares)
 {
-    NormalShares shares(piece);
     put_points(layer, points);
     update_box_and_normals(layer.cm, shares);
 }
@@ -265,7 +259,7 @@ MeshModel& add_copy(MeshDocument& document, const MeshModel& layer, const QStrin
 void write_surface(MeshModel& layer, const vcg_ext::Surface& surface)
 {
     CMeshO& mesh = layer.cm;
-    NormalShares shares(piece);
+    NormalShares shares(faces_at_a_time);
     CMeshO room; // where the memory is missing, it is missed here, while the layer is whole
     vcg::tri::Allocator<CMeshO>::AddVertices(room, surface.points.size());
     vcg::tri::Allocator<CMeshO>::AddFaces(room, surface.triangles.size());

@@ -34,10 +34,16 @@ vcg_ext::Surface read_surface(const MeshModel& layer);
 /// The same with its matrix, or without.
 vcg_ext::Surface read_surface(const MeshModel& layer, bool with_matrix);
 
+constexpr int faces_at_a_time = 1 << 16; ///< whose normals are made anew
+
+/// The memory that new normals need. What has it before the mesh is changed, or a report written, cannot fail afterwards.
+using NormalShares = std::vector<std::array<Point3m, 3>>;
+
 /// Gives the vertices that are not deleted the positions that read_surface() gave, changed, in order. All else stays;
 /// normals and box follow. A matrix that stretches becomes the identity: the positions have it in them, and files are
 /// written without a matrix, so that what is seen, saved and read is one body.
-void write_positions(MeshModel& layer, const vcg_ext::Points& points);
+/// \param shares of `faces_at_a_time`
+void write_positions(MeshModel& layer, const vcg_ext::Points& points, NormalShares& shares);
 
 /// What the layer's faces show that must not slide along with the vertices under it: colours and quality of vertices,
 /// texture coordinates of vertices and wedges. No channels where it has none of these.
