@@ -10,35 +10,32 @@
 
 namespace {
 
-constexpr const char* info =
-    "Hides a message in the shape of the mesh, so that it cannot be seen. <b>Watermark: Detect</b> reads it back with "
-    "the key alone, without the original, also after noise, smoothing, simplification, remeshing, quantization, and any "
-    "rotation, translation or uniform scale.<br>"
-    "The whole mesh carries the mark: a selection is ignored, and kept. Only positions change; colours, "
-    "texture and quality stay where they were on the surface while vertices slide under them. "
-    "Vertices at one position move together, so seams stay closed. The filter ends with a blind detection of its own and "
-    "fails, with the mesh unchanged, where a bit would not read back.<br>"
-    "Keep the key secret, and note the recipe that the log ends with: detection needs the same settings.<br>"
-    "See:<br><i>Ming Luo, Adrian G. Bors</i><br><b>\"Surface-preserving robust watermarking of 3-D shapes\"</b><br>"
-    "IEEE Transactions on Image Processing 20(10), 2011<br>"
-    "<i>Jae-Won Cho, R&eacute;my Prost, Ho-Youl Jung</i><br><b>\"An oblivious watermarking for 3-D polygonal meshes "
-    "using distribution of vertex norms\"</b><br>IEEE Transactions on Signal Processing 55(1), 2007";
+QString info()
+{
+    return "Hides a message in the shape of the mesh, so that it cannot be seen. <b>Watermark: Detect</b> reads it back "
+           "with the key alone, also after noise, smoothing, simplification, remeshing, quantization, rotation, "
+           "translation and uniform scale.<br>"
+           "Only positions change, whatever is selected; colours, texture and quality stay where they were on the "
+           "surface, and seams closed. The filter ends with a blind detection, and fails, with the mesh unchanged, "
+           "where a bit would not read back.<br>"
+           "Keep the key secret, and note the recipe that the log ends with: detection needs it.<br>" +
+           about_carrier_parameters() +
+           "See:<br><i>Ming Luo, Adrian G. Bors</i><br><b>\"Surface-preserving robust watermarking of 3-D shapes\"</b><br>"
+           "IEEE Transactions on Image Processing 20(10), 2011<br>"
+           "<i>Jae-Won Cho, R&eacute;my Prost, Ho-Youl Jung</i><br><b>\"An oblivious watermarking for 3-D polygonal meshes "
+           "using distribution of vertex norms\"</b><br>IEEE Transactions on Signal Processing 55(1), 2007";
+}
 
 RichParameterList parameters(const MeshDocument&)
 {
     RichParameterList list;
-    list.addParam(
-        RichString("Message", "", "Message",
-                   "Plain text, <i>id:17</i> (a number), <i>hex:C0FFEE</i>, or <i>bits:0110</i> (raw, not coded)."));
-    add_carrier_parameters(list, "Number of carriers, 1 to 1024; 0 takes what the message needs to last.");
-    list.addParam(
-        RichFloat("Strength", 0, "Strength",
-                  "0 is the method's default. Layered, Waves: RMS move over the diagonal, 1e-4; L-M, QSP, Cho, "
-                  "Geodesic: 0.1; Spectral: 15. More survives more and shows more."));
-    list.addParam(
-        RichBool("Rehearse", false, "Rehearse",
-                 "Afterwards tries noise, simplification, smoothing and quantization on copies, and says which "
-                 "of them the mark survives."));
+    list.addParam(RichString("Message", "", "Message",
+                             "Plain text, id:17 (a number), hex:C0FFEE, or bits:0110 (raw, not coded)."));
+    add_carrier_parameters(list, "0 (usual) takes as many carriers as the message needs to last; or 1 to 1024.");
+    list.addParam(RichFloat("Strength", 0, "Strength",
+                            "0 is usual: 1e-4 of the diagonal (Layered, Waves), 15 (Spectral), 0.1 (the others)."));
+    list.addParam(RichBool("Rehearse", false, "Rehearse",
+                           "Tries noise, simplification, smoothing, quantization on copies; says what it survives."));
     add_report_parameter(list);
     return list;
 }

@@ -8,18 +8,20 @@
 
 namespace {
 
-constexpr const char* info =
-    "Compares the current layer with a reference: MRMS, Hausdorff and mean distance as Metro takes them (also relative "
-    "to the "
-    "reference's bounding-box diagonal), signal to noise, the perceptual distance MSDM, changes of volume and area.<br>"
-    "The vertices get their distance to the reference as quality, and a colour from it, unless they have one: red is near, "
-    "blue a thousandth of the diagonal or more. "
-    "Layers are compared without their matrices, unless one of these stretches its layer.<br>"
-    "See:<br><i>Paolo Cignoni, Claudio Rocchini, Roberto Scopigno</i><br><b>\"Metro: measuring error on simplified "
-    "surfaces\"</b>"
-    "<br>Computer Graphics Forum 17(2), 1998<br>"
-    "<i>Guillaume Lavou&eacute; and others</i><br><b>\"Perceptually driven 3D distance metrics with application to "
-    "watermarking\"</b><br>SPIE Applications of Digital Image Processing XXIX, 2006";
+QString info()
+{
+    return "Compares the current layer with a reference: MRMS, Hausdorff and mean distance as Metro takes them (also relative "
+           "to the "
+           "reference's bounding-box diagonal), signal to noise, the perceptual distance MSDM, changes of volume and area.<br>"
+           "The vertices get their distance to the reference as quality, and a colour from it, unless they have one: red is near, "
+           "blue a thousandth of the diagonal or more. "
+           "Layers are compared without their matrices, unless one of these stretches its layer.<br>"
+           "See:<br><i>Paolo Cignoni, Claudio Rocchini, Roberto Scopigno</i><br><b>\"Metro: measuring error on simplified "
+           "surfaces\"</b>"
+           "<br>Computer Graphics Forum 17(2), 1998<br>"
+           "<i>Guillaume Lavou&eacute; and others</i><br><b>\"Perceptually driven 3D distance metrics with application to "
+           "watermarking\"</b><br>SPIE Applications of Digital Image Processing XXIX, 2006";
+}
 
 RichParameterList parameters(const MeshDocument& document)
 {
