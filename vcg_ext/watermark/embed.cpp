@@ -193,6 +193,8 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     result.carriers = options.carriers.bits;
     result.pieces = body.pieces;
     result.loose_pieces = body.loose_pieces;
+    const auto looks_marked = row_of(result.method).looks_marked;
+    const bool marked_before = looks_marked && looks_marked(body.surface);
     const Cover cover(body.surface);
     const bool floats = options.placement.storage == Storage::Float;
     const auto as_stored = [&](const Points& placed) {
@@ -245,6 +247,11 @@ int carriers_that_fit(const Surface& surface, const Key& key, const EmbedOptions
     const int most = 3 * options.carriers.bits / 4;
     int count = cause.roomy() > 0 ? std::min(most, 3 * cause.roomy() / 4) : most;
     for (int attempt = 0; attempt < 2 && count >= needed; ++attempt, count /= 2) {
+    if (marked_before && result.moved_vertices > 0) // where none moved, it is this very mark
+        result.warnings.emplace_back(
+            "The mesh seems to carry a mark of this kind already, and this one erases it. Where "
+            "both are wanted, take the unmarked mesh and two methods that leave each other "
+            "alone, as Waves or Spectral do with those of vertex norms.");
         options.carriers.bits = count;
         if (options.message.kind == Kind::Bits)
             options.message.bits.resize(std::min<std::size_t>(options.message.bits.size(), count));
