@@ -51,7 +51,7 @@ vcg_ext::EmbedReport embed_or_advise(vcg_ext::Surface& surface, const vcg_ext::K
         const std::string advice =
             fits > 0 ? " This mesh carries " + std::to_string(fits) +
                            " bits with this method and key: set Bits to that, or use a finer mesh."
-                     : std::string(" Fewer bits did not fit either: use another method, or a finer mesh.");
+                     : std::string(" Other numbers did not fit either: use another method, or a finer mesh.");
         throw vcg_ext::Error(cause.what() + advice);
     }
 }

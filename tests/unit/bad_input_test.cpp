@@ -256,7 +256,7 @@ TEST_P(BadInput, EmbedAndDetectAnswerOrRefuse)
                 } catch (const DoesNotFit& cause) {
                     EXPECT_TRUE(same_bytes(stego, cover));
                     const int carries = carriers_that_fit(stego, test_key(), wanted, cause);
-                    EXPECT_LT(carries, wanted.carriers.bits);
+                    EXPECT_NE(carries, wanted.carriers.bits);
                     return carries;
                 } catch (const Error& error) {
                     expect_useful(error.what());
