@@ -8,26 +8,33 @@
 
 namespace {
 
-constexpr const char* info = "Does to the mesh what a user, a file format or an adversary might, to try out what a "
-                             "watermark survives: noise, smoothing, "
-                             "simplification, quantization, remeshing, cropping and others.<br>"
-                             "The same seed gives the same result. A selection is ignored. Attacks that rebuild the "
-                             "mesh drop what it carried beside its "
-                             "shape (colours, texture coordinates).";
+QString info()
+{
+    QStringList amounts;
+    for (const vcg_ext::Attack attack : vcg_ext::all_attacks()) {
+        const vcg_ext::AttackRange& range = vcg_ext::range(attack);
+        if (range.amount_is)
+            amounts += QString("<i>%1</i>: %2 (%3)").arg(name(attack), range.amount_is).arg(range.amount);
+    }
+    return "Does to the mesh what a user, a file format or an adversary might, to try out what a watermark survives: "
+           "noise, smoothing, simplification, quantization, remeshing, cropping and others.<br>"
+           "It works in place, and nothing takes it back: duplicate the layer first to keep the original. The "
+           "same seed gives the same result. A selection is ignored. Attacks that rebuild the mesh drop what it carried "
+           "beside its shape (colours, texture coordinates).<br>"
+           "<b>Amount</b>, with its usual value: " +
+           amounts.join("; ") + ".";
+}
 
 RichParameterList parameters(const MeshDocument&)
 {
     QStringList names;
-    QString amounts = "How much; -1 takes the usual amount.";
-    for (const vcg_ext::Attack attack : vcg_ext::all_attacks()) {
-        const vcg_ext::AttackRange& range = vcg_ext::range(attack);
+    for (const vcg_ext::Attack attack : vcg_ext::all_attacks())
         names += name(attack);
-        if (range.amount_is)
-            amounts += QString("<br>%1: %2 (%3)").arg(name(attack), range.amount_is).arg(range.amount);
-    }
     RichParameterList list;
-    list.addParam(RichEnum("Attack", 0, names, "Attack", "What to do to the mesh."));
-    list.addParam(RichFloat("Amount", -1, "Amount", amounts));
+    list.addParam(RichEnum("Attack", 0, names, "Attack",
+                           "What to do to the mesh, which changes in place: duplicate the layer first."));
+    list.addParam(
+        RichFloat("Amount", -1, "Amount", "How much, as said above for each attack; -1 takes the usual amount."));
     list.addParam(RichInt("Iterations", -1, "Iterations",
                           "How often, for Smooth, Remesh and Subdivide; -1 takes the usual number."));
     list.addParam(RichInt("Seed", 0, "Seed", "Of all random draws, 0 or more."));
@@ -43,13 +50,19 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
     options.iterations = values.getInt("Iterations");
     options.seed = read_seed(values);
 
-    vcg_ext::Surface surface = read_surface(layer.cm);
+    const bool stretched = is_stretched(layer);
+    vcg_ext::Surface surface = read_surface(layer);
     const vcg_ext::AttackReport report = apply_attack(surface, options, progress);
-    if (report.positions_only)
-        write_positions(layer, surface.points);
-    else
+    if (report.positions_only) {
+        NormalShares shares(faces_at_a_time);
+        write_positions(layer, surface.points, shares);
+    } else {
         write_surface(layer, surface);
-    return to_json(report);
+    }
+    Json results = to_json(report);
+    if (stretched)
+        results["warnings"] = {stretched_as_written};
+    return results;
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include <vcg_ext/base/progress.h>
 #include <vcg_ext/carrier/statistic.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "layer.h"
@@ -10,35 +11,32 @@
 
 namespace {
 
-constexpr const char* info =
-    "Hides a message in the shape of the mesh, so that it cannot be seen. <b>Watermark: Detect</b> reads it back with "
-    "the key alone, without the original, also after noise, smoothing, simplification, remeshing, quantization, and any "
-    "rotation, translation or uniform scale.<br>"
-    "The whole mesh carries the mark: a selection is ignored, and kept. Only positions change; colours, "
-    "texture and quality stay where they were on the surface while vertices slide under them. "
-    "Vertices at one position move together, so seams stay closed. The filter ends with a blind detection of its own and "
-    "fails, with the mesh unchanged, where a bit would not read back.<br>"
-    "Keep the key secret, and note the recipe that the log ends with: detection needs the same settings.<br>"
-    "See:<br><i>Ming Luo, Adrian G. Bors</i><br><b>\"Surface-preserving robust watermarking of 3-D shapes\"</b><br>"
-    "IEEE Transactions on Image Processing 20(10), 2011<br>"
-    "<i>Jae-Won Cho, R&eacute;my Prost, Ho-Youl Jung</i><br><b>\"An oblivious watermarking for 3-D polygonal meshes "
-    "using distribution of vertex norms\"</b><br>IEEE Transactions on Signal Processing 55(1), 2007";
+QString info()
+{
+    return "Hides a message in the shape of the mesh, so that it cannot be seen. <b>Watermark: Detect</b> reads it back "
+           "with the key alone, also after noise, smoothing, simplification, remeshing, quantization, rotation, "
+           "translation and uniform scale.<br>"
+           "Only positions change, whatever is selected; colours, texture and quality stay where they were on the "
+           "surface, and seams closed. The filter ends with a blind detection, and fails, with the mesh unchanged, "
+           "where a bit would not read back.<br>"
+           "Keep the key secret, and note the recipe that the log ends with: detection needs it.<br>" +
+           about_carrier_parameters() +
+           "See:<br><i>Ming Luo, Adrian G. Bors</i><br><b>\"Surface-preserving robust watermarking of 3-D shapes\"</b><br>"
+           "IEEE Transactions on Image Processing 20(10), 2011<br>"
+           "<i>Jae-Won Cho, R&eacute;my Prost, Ho-Youl Jung</i><br><b>\"An oblivious watermarking for 3-D polygonal meshes "
+           "using distribution of vertex norms\"</b><br>IEEE Transactions on Signal Processing 55(1), 2007";
+}
 
 RichParameterList parameters(const MeshDocument&)
 {
     RichParameterList list;
-    list.addParam(
-        RichString("Message", "", "Message",
-                   "Plain text, <i>id:17</i> (a number), <i>hex:C0FFEE</i>, or <i>bits:0110</i> (raw, not coded)."));
-    add_carrier_parameters(list, "Number of carriers, 1 to 1024; 0 takes what the message needs to last.");
-    list.addParam(
-        RichFloat("Strength", 0, "Strength",
-                  "0 is the method's default. Layered, Waves: RMS move over the diagonal, 1e-4; L-M, QSP, Cho, "
-                  "Geodesic: 0.1; Spectral: 15. More survives more and shows more."));
-    list.addParam(
-        RichBool("Rehearse", false, "Rehearse",
-                 "Afterwards tries noise, simplification, smoothing and quantization on copies, and says which "
-                 "of them the mark survives."));
+    list.addParam(RichString("Message", "", "Message",
+                             "Plain text, id:17 (a number), hex:C0FFEE, or bits:0110 (raw, not coded)."));
+    add_carrier_parameters(list, "0 (usual) takes as many carriers as the message needs to last; or 1 to 1024.");
+    list.addParam(RichFloat("Strength", 0, "Strength",
+                            "0 is usual: 1e-4 of the diagonal (Layered, Waves), 15 (Spectral), 0.1 (the others)."));
+    list.addParam(RichBool("Rehearse", false, "Rehearse",
+                           "Tries noise, simplification, smoothing, quantization on copies; says what it survives."));
     add_report_parameter(list);
     return list;
 }
@@ -54,9 +52,20 @@ vcg_ext::EmbedReport embed_or_advise(vcg_ext::Surface& surface, const vcg_ext::K
         const std::string advice =
             fits > 0 ? " This mesh carries " + std::to_string(fits) +
                            " bits with this method and key: set Bits to that, or use a finer mesh."
-                     : std::string(" Fewer bits did not fit either: use another method, or a finer mesh.");
+                     : std::string(" Other numbers did not fit either: use another method, or a finer mesh.");
         throw vcg_ext::Error(cause.what() + advice);
     }
+}
+
+/// Vertices that stay, so that the texture is not stretched where they could only slide along a seam: those on seams,
+/// unless these are so many that little would be left to carry a mark.
+std::vector<char> seams_to_hold(const vcg_ext::Surface& surface, const vcg_ext::CornerValues& shown)
+{
+    constexpr double most = 0.3; // of the vertices
+    std::vector<char> held = on_seams(surface, shown);
+    if (double(std::count(held.begin(), held.end(), 1)) > most * double(held.size()))
+        held.clear();
+    return held;
 }
 
 Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext::Progress& progress)
@@ -70,7 +79,11 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
     const vcg_ext::Key key = read_key(values);
     ReportFile file(values.getSaveFileName("Report"));
 
-    vcg_ext::Surface surface = read_surface(layer.cm);
+    const bool stretched = is_stretched(layer);
+    vcg_ext::Surface surface = read_surface(layer);
+    const vcg_ext::CornerValues shown = read_corner_values(layer);
+    if (has_texture(layer))
+        options.held = seams_to_hold(surface, shown);
     const bool rehearses = values.getBool("Rehearse");
     const vcg_ext::EmbedReport embedded =
         embed_or_advise(surface, key, options, vcg_ext::within(progress, 0, rehearses ? 50 : 100));
@@ -80,14 +93,18 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
         rehearsals = rehearse(surface, key, options.carriers, options.message, vcg_ext::within(progress, 50, 100));
     }
     Json report = to_json(embedded, rehearsals);
-    const vcg_ext::CornerValues shown = read_corner_values(layer);
     std::optional<vcg_ext::CarriedValues> carried;
     if (shown.channels > 0)
-        carried = carried_values(read_surface(layer.cm), shown, surface.points);
+        carried = carried_values(read_surface(layer), shown, surface.points);
     if (carried && has_texture(layer))
         report["texture_stretch"] = carried->stretch;
-    file.write(report);
-    write_positions(layer, surface.points);
+    if (stretched)
+        report["warnings"].push_back(stretched_as_written);
+    if (const std::string others = about_other_layers(document, "carries the mark"); !others.empty())
+        report["warnings"].push_back(others);
+    NormalShares shares(faces_at_a_time);
+    file.write(report); // the last that can fail
+    write_positions(layer, surface.points, shares);
     if (carried)
         write_corner_values(layer, carried->values);
     return report;
@@ -100,8 +117,8 @@ const Filter embed_filter = {"Watermark: Embed",
                              HostInterface::Smoothing,
                              HostInterface::SINGLE_MESH,
                              MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL | MeshModel::MM_FACENORMAL |
-                                 MeshModel::MM_VERTCOLOR | MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTTEXCOORD |
-                                 MeshModel::MM_WEDGTEXCOORD,
+                                 MeshModel::MM_TRANSFMATRIX | MeshModel::MM_VERTCOLOR | MeshModel::MM_VERTQUALITY |
+                                 MeshModel::MM_VERTTEXCOORD | MeshModel::MM_WEDGTEXCOORD,
                              info,
                              parameters,
                              run};

@@ -18,7 +18,7 @@ struct Filter {
     HostInterface::FilterClass menu; ///< submenu
     FilterArity arity;               ///< how many layers it works on
     int changes;                     ///< MeshModel's mask of what it may change
-    const char* info;                ///< HTML, at the top of the dialog
+    QString (*info)();               ///< HTML, at the top of the dialog
     RichParameterList (*parameters)(const MeshDocument& document);
 
     /// Changes the current layer and returns the results.

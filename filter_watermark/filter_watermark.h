@@ -13,7 +13,7 @@ public:
     QString pluginName() const override { return "FilterWatermark"; }
     QString filterName(int id) const override { return all_filters.at(id)->name; }
     QString pythonFilterName(int id) const override { return all_filters.at(id)->python_name; }
-    QString filterInfo(int id) const override { return all_filters.at(id)->info; }
+    QString filterInfo(int id) const override { return all_filters.at(id)->info(); }
     FilterClass menu(int id) const override { return all_filters.at(id)->menu; }
     FilterArity arity(int id) const override { return all_filters.at(id)->arity; }
     int changes(int id) const override { return all_filters.at(id)->changes; }

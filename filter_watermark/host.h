@@ -162,6 +162,20 @@ inline const MeshModel* current_layer(const MeshDocument& document)
 #endif
 }
 
+/// How many layers are seen.
+inline int visible_layers(const MeshDocument& document)
+{
+    int count = 0;
+#if MESHLAB_YEAR < 2021
+    for (const MeshModel* layer : document.meshList)
+        count += layer->isVisible();
+#else
+    for (const MeshModel& layer : document.meshIterator())
+        count += layer.isVisible();
+#endif
+    return count;
+}
+
 /// A parameter that names a layer; one that is not the current one is preset where there is any.
 inline RichMesh layer_parameter(const QString& name, const MeshDocument& document, const QString& label,
                                 const QString& tip)

@@ -4,6 +4,7 @@
 #include <vcg_ext/base/error.h>
 #include <vcg_ext/base/parallel.h>
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
@@ -15,8 +16,62 @@ MeshModel& current_layer_or_error(MeshDocument& document)
     throw vcg_ext::Error("There is no mesh. Open one first.");
 }
 
-vcg_ext::Surface read_surface(const CMeshO& mesh)
+std::string about_other_layers(MeshDocument& document, const std::string& what)
 {
+    const MeshModel& layer = *document.mm();
+    const int others = visible_layers(document) - int(layer.isVisible());
+    if (others == 0)
+        return {};
+    return "Only layer '" + layer.label().toStdString() + "' of " + std::to_string(1 + others) + " " + what +
+           ". Where they are parts of one body, apply 'Flatten Visible Layers' first.";
+}
+
+const MeshModel& other_layer(const RichParameterList& values, const QString& parameter, MeshDocument& document)
+{
+    const MeshModel* layer = layer_value(values, parameter, document);
+    const std::string name = parameter.toStdString();
+    if (!layer)
+        throw vcg_ext::Error("There is no layer for " + name + ". Open that mesh too, and choose its layer.");
+    if (layer == document.mm())
+        throw vcg_ext::Error(name + " is the current layer itself. Open the other mesh too, and choose its layer.");
+    return *layer;
+}
+
+namespace {
+
+constexpr double rounding = 1e-5; ///< of a similarity that went through products of floats; no mark notices
+
+Eigen::Matrix4d matrix_of(const MeshModel& layer)
+{
+    Eigen::Matrix4d matrix;
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j)
+            matrix(i, j) = double(layer.cm.Tr.ElementAt(i, j));
+    return matrix;
+}
+
+} // namespace
+
+bool is_stretched(const MeshModel& layer)
+{
+    const Eigen::Matrix4d matrix = matrix_of(layer);
+    const bool affine = matrix.allFinite() && matrix.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1));
+    const Eigen::Matrix3d linear = affine ? matrix.topLeftCorner<3, 3>().eval() : Eigen::Matrix3d::Zero().eval();
+    const Eigen::Vector3d scales = Eigen::JacobiSVD<Eigen::Matrix3d>(linear).singularValues();
+    if (scales[2] <= 1e-6 * scales[0])
+        throw vcg_ext::Error("The layer's matrix is singular: it leaves no body to look at. Set another one, or apply "
+                             "'Matrix: Reset Current Matrix' (in Python: set_matrix_identity).");
+    return scales[0] > (1 + rounding) * scales[2];
+}
+
+vcg_ext::Surface read_surface(const MeshModel& layer)
+{
+    return read_surface(layer, is_stretched(layer));
+}
+
+vcg_ext::Surface read_surface(const MeshModel& layer, bool with_matrix)
+{
+    const CMeshO& mesh = layer.cm;
     vcg_ext::Surface surface;
     std::vector<int> index(mesh.vert.size(), -1);
     surface.points.reserve(mesh.vn);
@@ -34,6 +89,11 @@ vcg_ext::Surface read_surface(const CMeshO& mesh)
         const auto corner = [&](int j) { return index[face.cV(j) - mesh.vert.data()]; };
         surface.triangles.push_back({corner(0), corner(1), corner(2)});
     }
+    if (with_matrix) {
+        const Eigen::Affine3d matrix(matrix_of(layer));
+        for (vcg_ext::Point& point : surface.points)
+            point = matrix * point;
+    }
     return surface;
 }
 
@@ -49,8 +109,11 @@ void for_each_vertex(MeshModel& layer, const Values& values, const Write& write)
             write(vertex, *value++);
 }
 
+/// Points that read_surface() gave: a matrix that stretches is in them.
 void put_points(MeshModel& layer, const vcg_ext::Points& points)
 {
+    if (is_stretched(layer))
+        layer.cm.Tr.SetIdentity();
     for_each_vertex(layer, points, [](CVertexO& vertex, const vcg_ext::Point& point) {
         vertex.P() = Point3m(Scalarm(point.x()), Scalarm(point.y()), Scalarm(point.z()));
     });
@@ -67,14 +130,9 @@ std::array<Point3m, 3> normals_by_angle(const CFaceO& face)
     return {normal * vcg::AngleN(e0, -e2), normal * vcg::AngleN(-e0, e1), normal * vcg::AngleN(-e1, e2)};
 }
 
-constexpr int piece = 1 << 16; ///< faces whose normals are in work at a time
-
-/// What update_box_and_normals() works in. Made before the mesh is changed: where memory is missing, it is missed here.
-using NormalShares = std::vector<std::array<Point3m, 3>>;
-
 /// What MeshLab's own update does on one core, with the same sums in the same order, on all of them: at 600,000
 /// vertices in a third of the time, which is a tenth of an embedding.
-/// \param shares room for a piece
+/// \param shares of `faces_at_a_time`
 void update_box_and_normals(CMeshO& mesh, NormalShares& shares)
 {
     vcg::tri::UpdateBounding<CMeshO>::Box(mesh);
@@ -82,8 +140,8 @@ void update_box_and_normals(CMeshO& mesh, NormalShares& shares)
         if (!face.IsD())
             for (int corner = 0; corner < 3; ++corner)
                 face.V(corner)->N() = Point3m(0, 0, 0);
-    for (std::size_t first = 0; first < mesh.face.size(); first += piece) {
-        const int count = int(std::min<std::size_t>(piece, mesh.face.size() - first));
+    for (std::size_t first = 0; first < mesh.face.size(); first += faces_at_a_time) {
+        const int count = int(std::min<std::size_t>(faces_at_a_time, mesh.face.size() - first));
         vcg_ext::for_each_index(count, [&](int i) {
             CFaceO& face = mesh.face[first + i];
             if (face.IsD())
@@ -100,9 +158,8 @@ void update_box_and_normals(CMeshO& mesh, NormalShares& shares)
 
 } // namespace
 
-void write_positions(MeshModel& layer, const vcg_ext::Points& points)
+void write_positions(MeshModel& layer, const vcg_ext::Points& points, NormalShares& shares)
 {
-    NormalShares shares(piece);
     put_points(layer, points);
     update_box_and_normals(layer.cm, shares);
 }
@@ -190,17 +247,19 @@ void write_distances(MeshModel& layer, const std::vector<double>& distance_of_ve
 
 MeshModel& add_copy(MeshDocument& document, const MeshModel& layer, const QString& label)
 {
-    const vcg_ext::Surface surface = read_surface(layer.cm);
+    const bool stretched = is_stretched(layer);
+    const vcg_ext::Surface surface = read_surface(layer, stretched);
     MeshModel& copy = *document.addNewMesh(QString(), label, false);
     write_surface(copy, surface);
-    copy.cm.Tr = layer.cm.Tr;
+    if (!stretched)
+        copy.cm.Tr = layer.cm.Tr;
     return copy;
 }
 
 void write_surface(MeshModel& layer, const vcg_ext::Surface& surface)
 {
     CMeshO& mesh = layer.cm;
-    NormalShares shares(piece);
+    NormalShares shares(faces_at_a_time);
     CMeshO room; // where the memory is missing, it is missed here, while the layer is whole
     vcg::tri::Allocator<CMeshO>::AddVertices(room, surface.points.size());
     vcg::tri::Allocator<CMeshO>::AddFaces(room, surface.triangles.size());

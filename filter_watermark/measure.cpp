@@ -8,18 +8,20 @@
 
 namespace {
 
-constexpr const char* info =
-    "Compares the current layer with a reference: MRMS, Hausdorff and mean distance as Metro takes them (also relative "
-    "to the "
-    "reference's bounding-box diagonal), signal to noise, the perceptual distance MSDM, changes of volume and area.<br>"
-    "The vertices get their distance to the reference as quality, and a colour from it, unless they have one: red is near, "
-    "blue a thousandth of the diagonal or more. "
-    "Layers are compared as they lie in their files, without their matrices.<br>"
-    "See:<br><i>Paolo Cignoni, Claudio Rocchini, Roberto Scopigno</i><br><b>\"Metro: measuring error on simplified "
-    "surfaces\"</b>"
-    "<br>Computer Graphics Forum 17(2), 1998<br>"
-    "<i>Guillaume Lavou&eacute; and others</i><br><b>\"Perceptually driven 3D distance metrics with application to "
-    "watermarking\"</b><br>SPIE Applications of Digital Image Processing XXIX, 2006";
+QString info()
+{
+    return "Compares the current layer with a reference: MRMS, Hausdorff and mean distance as Metro takes them (also relative "
+           "to the "
+           "reference's bounding-box diagonal), signal to noise, the perceptual distance MSDM, changes of volume and area.<br>"
+           "The vertices get their distance to the reference as quality, and a colour from it, unless they have one: red is near, "
+           "blue a thousandth of the diagonal or more. "
+           "Layers are compared without their matrices, unless one of these stretches its layer.<br>"
+           "See:<br><i>Paolo Cignoni, Claudio Rocchini, Roberto Scopigno</i><br><b>\"Metro: measuring error on simplified "
+           "surfaces\"</b>"
+           "<br>Computer Graphics Forum 17(2), 1998<br>"
+           "<i>Guillaume Lavou&eacute; and others</i><br><b>\"Perceptually driven 3D distance metrics with application to "
+           "watermarking\"</b><br>SPIE Applications of Digital Image Processing XXIX, 2006";
+}
 
 RichParameterList parameters(const MeshDocument& document)
 {
@@ -34,18 +36,16 @@ RichParameterList parameters(const MeshDocument& document)
 Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext::Progress& progress)
 {
     MeshModel& layer = current_layer_or_error(document);
-    const MeshModel* reference = layer_value(values, "Reference", document);
-    if (!reference)
-        throw vcg_ext::Error("There is no such reference layer. Open the reference mesh, and choose its layer.");
+    const MeshModel& reference = other_layer(values, "Reference", document);
     vcg_ext::DistortionOptions options;
     options.samples = values.getInt("Samples");
     options.seed = read_seed(values);
-    if (reference == &layer)
-        throw vcg_ext::Error("Reference is the layer that is measured. Open the other mesh too, or choose its layer.");
     ReportFile file(values.getSaveFileName("Report"));
 
+    const std::array stretched = {is_stretched(reference), is_stretched(layer)};
+    const bool with_matrices = stretched[0] || stretched[1];
     const vcg_ext::DistortionReport report =
-        measure(read_surface(reference->cm), read_surface(layer.cm), options, progress);
+        measure(read_surface(reference, with_matrices), read_surface(layer, with_matrices), options, progress);
     Json results = to_json(report);
     constexpr double plain = 1e-3; // of the diagonal: nobody would overlook that
     const double diagonal = report.mrms_relative > 0 ? report.mrms / report.mrms_relative : 1;
@@ -53,6 +53,8 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
                                 "had are kept, and distances are its vertices' quality.")
                             .arg(plain * diagonal, 0, 'g', 3)
                             .toStdString();
+    if (with_matrices)
+        results["warnings"].push_back(stretched_as_read);
     file.write(results);
     write_distances(layer, report.distance, plain * diagonal);
     return results;

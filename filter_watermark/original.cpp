@@ -8,22 +8,24 @@
 
 namespace {
 
-constexpr const char* info =
-    "Reads the message in the current layer with the key and the unmarked original, and so from what "
-    "<b>Watermark: Detect</b> cannot read any more: cut, stretched, mirrored, smoothed heavily. The mesh is laid on the "
-    "original by shape alone first; the log and the report say where and how well it fits, and name a mesh that is no "
-    "copy of this original.<br>"
-    "<i>p_value</i> and <i>p_message</i> are true upper bounds, as those of Detect. Method, Statistic and Trim must be "
-    "those of embedding. Waves and Layered survive the most. Layers are taken as they lie in their files, without their "
-    "matrices; both stay as they are.";
+QString info()
+{
+    return "Reads the message in the current layer with the key and the unmarked original, and so from what "
+           "<b>Watermark: Detect</b> cannot read any more: cut, stretched, mirrored, smoothed heavily. The mesh is laid on the "
+           "original by shape alone first; the log and the report say where and how well it fits, and name a mesh that is no "
+           "copy of this original.<br>"
+           "<i>p_value</i> and <i>p_message</i> are true upper bounds, as those of Detect. Method, Statistic and Trim must be "
+           "those of embedding. Waves and Layered survive the most. Layers are taken without their "
+           "matrices, unless these stretch them; both stay as they are.<br>" +
+           about_carrier_parameters();
+}
 
 RichParameterList parameters(const MeshDocument& document)
 {
     RichParameterList list;
-    add_carrier_parameters(list, "Number of carriers that the mark was embedded with, 1 to 1024; 0 finds it.");
-    list.addParam(
-        layer_parameter("Original", document, "Original",
-                        "The layer with the mesh as it was before embedding. The current layer is examined."));
+    add_carrier_parameters(list, "0 (usual) finds the number of carriers; or that of embedding, 1 to 1024.");
+    list.addParam(layer_parameter("Original", document, "Original",
+                                  "The layer with the mesh as it was before embedding; the current one is examined."));
     add_expected_parameter(list);
     add_report_parameter(list);
     return list;
@@ -32,20 +34,16 @@ RichParameterList parameters(const MeshDocument& document)
 Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext::Progress& progress)
 {
     MeshModel& layer = current_layer_or_error(document);
-    const MeshModel* original = layer_value(values, "Original", document);
-    if (!original)
-        throw vcg_ext::Error("There is no such original layer. Open the unmarked mesh, and choose its layer.");
-    if (original == &layer)
-        throw vcg_ext::Error("The original is the current layer itself. Open both meshes, make the one to be examined "
-                             "the current layer, and choose the unmarked one as Original.");
+    const MeshModel& original = other_layer(values, "Original", document);
     vcg_ext::DetectOptions options;
     options.carriers = read_carrier_options(values);
     options.expected = read_expected(values);
     const vcg_ext::Key key = read_key(values);
     ReportFile file(values.getSaveFileName("Report"));
 
-    const Json results =
-        to_json(detect_with_original(read_surface(layer.cm), read_surface(original->cm), key, options, progress));
+    Json results = to_json(detect_with_original(read_surface(layer), read_surface(original), key, options, progress));
+    if (is_stretched(layer) || is_stretched(original))
+        results["warnings"].push_back(stretched_as_read);
     file.write(results);
     return results;
 }

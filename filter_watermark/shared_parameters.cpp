@@ -41,32 +41,31 @@ std::uint64_t read_seed(const RichParameterList& values)
     return std::uint64_t(seed);
 }
 
-/// What each method is for.
-static QString method_hints()
+QString about_carrier_parameters()
 {
-    QString hints;
-    for (const vcg_ext::MethodRow& row : vcg_ext::all_methods())
-        hints += QString("<br><i>%1</i>: %2.").arg(row.name, row.hint);
-    return hints;
+    QStringList hints;
+    QStringList with_statistic;
+    for (const vcg_ext::MethodRow& row : vcg_ext::all_methods()) {
+        hints += QString("<i>%1</i> (%2)").arg(row.name, row.hint);
+        if (row.has_statistic)
+            with_statistic += row.name;
+    }
+    return "<b>Method</b>: " + hints.join(", ") + ". <b>Statistic</b> matters to " + with_statistic.join(", ") +
+           ". <b>Trim</b> is cut off the range of values at both ends. <b>Secret key</b>: <i>file:PATH</i> takes a "
+           "file's bytes, less a line end at its end; <i>env:NAME</i> an environment variable.<br>";
 }
 
 void add_carrier_parameters(RichParameterList& list, const QString& bits_tip)
 {
-    list.addParam(
-        RichEnum("Method", 0, choice_names(methods()), "Method", "Detection needs the same one. " + method_hints()));
-    list.addParam(
-        RichEnum("Statistic", 0, choice_names(statistics), "Statistic",
-                 "What a carrier's values tell: their mean, or their variance (less visible, less robust). Detection "
-                 "needs the same one. Spectral ignores it."));
-    list.addParam(RichString(
-        "Key", "", "Secret key",
-        "A passphrase, or <i>file:PATH</i> for a file's bytes (less a line end at its end), or <i>env:NAME</i> for an "
-        "environment variable. The last two keep it out of scripts, histories and project files."));
+    list.addParam(RichEnum("Method", 0, choice_names(methods()), "Method",
+                           "What carries the bits. Detection needs the same one; Layered survives the most."));
+    list.addParam(RichEnum("Statistic", 0, choice_names(statistics), "Statistic",
+                           "Mean is more robust, Variance less visible. Detection needs the same one."));
+    list.addParam(RichString("Key", "", "Secret key",
+                             "A passphrase; or file:PATH or env:NAME, which stay out of scripts and histories."));
     list.addParam(RichInt("Bits", 0, "Bits", bits_tip));
-    list.addParam(RichFloat(
-        "Trim", -1, "Trim",
-        "Part of the values' range that is cut off at both ends, 0 to 0.45; -1 draws it from the key. Detection "
-        "needs the same."));
+    list.addParam(RichFloat("Trim", -1, "Trim",
+                            "-1 (usual) draws it from the key; or a part of the range, 0 to 0.45, as in embedding."));
 }
 
 vcg_ext::CarrierOptions read_carrier_options(const RichParameterList& values)
@@ -102,7 +101,7 @@ void add_expected_parameter(RichParameterList& list)
 {
     list.addParam(
         RichString("Expected", "", "Expected message",
-                   "The message to look for, as in Embed; <i>file:PATH</i>: one of its lines; or empty, to read."));
+                   "The message to look for, or file:PATH with one on each line; empty to read what is there."));
 }
 
 std::vector<vcg_ext::Message> read_expected(const RichParameterList& values)
@@ -122,8 +121,7 @@ std::vector<vcg_ext::Message> read_expected(const RichParameterList& values)
 void add_report_parameter(RichParameterList& list)
 {
     list.addParam(RichFileSave("Report", "", "*.json", "Report",
-                               "Where to write the results as JSON; empty for nowhere. In MeshLab 2020.09's window, "
-                               "choose the file with the button: text typed beside it is not taken."));
+                               "JSON file for the results, or empty. MeshLab 2020.09 takes it by the button only."));
 }
 
 double read_number(const RichParameterList& values, const QString& name)

@@ -26,6 +26,9 @@ Choice read_choice(const RichParameterList& values, const QString& name, const s
 /// \throw vcg_ext::Error where it is negative
 std::uint64_t read_seed(const RichParameterList& values);
 
+/// For a filter's info: what does not fit into the tooltips of these parameters.
+QString about_carrier_parameters();
+
 /// What Embed and Detect have in common: Method, Statistic, Key, Bits, Trim.
 void add_carrier_parameters(RichParameterList& list, const QString& bits_tip);
 vcg_ext::CarrierOptions read_carrier_options(const RichParameterList& values);

@@ -300,6 +300,20 @@ def test_an_stl_stays_closed_and_its_mark_survives_into_ply(tmp_path: Path) -> N
     assert found["detection_ratio"] == 1
 
 
+def test_of_several_layers_it_is_said_which_one(marked: Path) -> None:
+    meshes = opened(marked, FANDISK)
+    for current, name in ((0, "bunny.ply"), (1, "fandisk.off")):
+        meshes.set_current_mesh(current)
+        found = PyMeshLab().apply(meshes, DETECT, **LM)
+        assert [warning for warning in found["warnings"] if f"layer '{name}' of 2 was looked at" in warning]
+    embedded = PyMeshLab().apply(meshes, EMBED, **MARK)
+    assert [warning for warning in embedded["warnings"] if "layer 'fandisk.off' of 2 carries the mark" in warning]
+    meshes.set_current_mesh(0)
+    meshes.set_current_mesh_visibility(False)
+    meshes.set_current_mesh(1)
+    assert PyMeshLab().apply(meshes, DETECT, **LM)["warnings"] == []  # what is hidden does not count
+
+
 def test_carriers_are_shown(marked: Path) -> None:
     meshes = opened(marked)
     positions = meshes.current_mesh().vertex_matrix()
@@ -323,7 +337,7 @@ def test_measuring_takes_the_other_layer_and_keeps_colours(marked: Path) -> None
     colors = meshes.current_mesh().vertex_color_matrix().copy()
     assert meshes.apply_filter("get_watermark_distortion")["mrms"] > 0
     np.testing.assert_array_equal(meshes.current_mesh().vertex_color_matrix(), colors)
-    with pytest.raises(pymeshlab.PyMeshLabException, match="layer that is measured"):
+    with pytest.raises(pymeshlab.PyMeshLabException, match="current layer itself"):
         meshes.apply_filter("get_watermark_distortion", reference=1)
     PyMeshLab.failed.append(meshes)
 

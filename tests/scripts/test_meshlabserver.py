@@ -4,7 +4,9 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
+import trimesh
 from doors import DETECT, EMBED, MESHES, ROOT, STATISTICS, MeshLabServer, Refused, Value, script
 
 KEY = "correct horse battery staple"
@@ -99,6 +101,26 @@ def test_the_scripts_for_users(tmp_path: Path) -> None:
     assert beside.returncode == 0, beside.stdout
     assert "present: true" in beside.stdout
     assert KEY not in embedded.stdout + detected.stdout + beside.stdout
+
+
+def test_a_matrix_that_stretches_is_in_the_file_that_is_written(tmp_path: Path) -> None:
+    """MeshLab writes points without the layer's matrix: Embed applies it, so that what was seen is what is saved."""
+    matrix = np.diag([1, 1, 1.5, 1])
+    entries = " ".join(f'val{i}="{value}"' for i, value in enumerate(matrix.ravel()))
+    stretch = (
+        f'<filter name="Matrix: Set/Copy Transformation"><Param name="TransformMatrix" type="RichMatrix44f" {entries}/>'
+        '<Param name="compose" type="RichBool" value="false"/><Param name="Freeze" type="RichBool" value="false"/>'
+        '<Param name="allLayers" type="RichBool" value="false"/></filter>'
+    )
+    embed = script(EMBED, {**MARK, "Message": MESSAGE})
+    (tmp_path / "embed.mlx").write_text(embed.replace("<FilterScript>", f"<FilterScript>{stretch}"))
+    door, output = MeshLabServer(), tmp_path / "marked.ply"
+    done = door.arguments("-i", BUNNY, "-s", tmp_path / "embed.mlx", "-o", output)
+    assert done.returncode == 0, done.stdout
+    assert "The layer's matrix stretches it" in done.stdout
+    assert door.run(DETECT, output, Expected=MESSAGE, **MARK)["present"] is True
+    sizes = [np.ptp(np.array(trimesh.load(path, process=False).vertices), axis=0) for path in (BUNNY, output)]
+    np.testing.assert_allclose(sizes[1] / sizes[0], [1, 1, 1.5], rtol=0.01)
 
 
 FAILURES: list[tuple[str, dict[str, Value], str]] = [

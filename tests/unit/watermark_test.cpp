@@ -357,6 +357,51 @@ TEST(Embed, NamesACapacityAtWhichNoCarrierIsEmpty)
         }
 }
 
+/// What carriers_that_fit() says of raw bits that embed() refuses, and that it is right; 0 where it does not refuse.
+int proposed(const char* mesh, Method method, int bits)
+{
+    EmbedOptions options = options_for(method, Statistic::Mean);
+    options.carriers.bits = bits;
+    options.message = read_message("bits:" + std::string(bits, '1'));
+    Surface surface = load(mesh);
+    try {
+        embed(surface, test_key(), options);
+    } catch (const DoesNotFit& cause) {
+        const int fits = carriers_that_fit(surface, test_key(), options, cause);
+        options.carriers.bits = fits;
+        embed(surface, test_key(), options);
+        return fits;
+    }
+    return 0;
+}
+
+TEST(Embed, ProposesMoreBitsWhereFewCannotBeMoved)
+{
+    int refused = 0;
+    for (const int bits : {2, 3, 5, 8})
+        if (const int more = proposed("bunny00.off", Method::LM, bits); more > 0) {
+            EXPECT_EQ(more, 64) << bits;
+            ++refused;
+        }
+    EXPECT_GT(refused, 0);
+}
+
+TEST(Embed, WarnsOfAMarkThatItErases)
+{
+    const auto warned = [](const EmbedReport& report) {
+        return std::any_of(report.warnings.begin(), report.warnings.end(),
+                           [](const std::string& text) { return text.find("a mark of this kind") < text.size(); });
+    };
+    const Surface cover = load("bunny00.off");
+    for (const Method first : {Method::LM, Method::Cho, Method::Spectral}) {
+        Surface surface = cover;
+        EXPECT_FALSE(warned(embed(surface, key_from_text("owner"), options_for(first, Statistic::Mean))));
+        EXPECT_FALSE(warned(embed(surface, key_from_text("owner"), options_for(first, Statistic::Mean)))); // the same
+        const EmbedReport second = embed(surface, key_from_text("customer"), options_for(Method::LM, Statistic::Mean));
+        EXPECT_EQ(warned(second), first != Method::Spectral) << name(first);
+    }
+}
+
 TEST(SphereWeights, KeepTheOrderOfTable52)
 {
     const Surface cover = load("bunny00.off");

@@ -2,6 +2,7 @@
 #include "norms.h"
 
 #include "../base/parallel.h"
+#include "../carrier/comb.h"
 #include "../placement/fold_guard.h"
 #include "../placement/radial.h"
 #include "../placement/selective.h"
@@ -191,6 +192,12 @@ Plan plan_norms(const Key& key, const CarrierOptions& options)
 MarkFrame find_norms(const Surface& surface, const Plan& /*plan*/)
 {
     return shell_frame(surface.points, solid_topology(surface));
+}
+
+bool norms_look_marked(const Surface& surface)
+{
+    const ShellFrame frame = shell_frame(surface.points, solid_topology(surface));
+    return find_comb(norms(surface.points, frame.centre), frame.minimum, frame.maximum).found();
 }
 
 Readings read_norms(const Surface& surface, const Plan& plan, const MarkFrame& frame)

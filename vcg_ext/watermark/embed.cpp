@@ -14,6 +14,7 @@
 #include "secrets.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -183,8 +184,20 @@ void warn(const EmbedOptions& options, EmbedReport& result)
     if (options.message.kind == Kind::Bits && options.carriers.bits < 20)
         result.warnings.emplace_back("Fewer than 20 bits can never prove anything: they match by chance too often.");
     if (result.mrms_relative > visible)
-        result.warnings.push_back("The mark moves the surface by " + text(result.mrms_relative) +
+        result.warnings.push_back("The mark moves the surface by " +
+                                  text(std::round(1e5 * result.mrms_relative) / 1e5) +
                                   " of the diagonal (MRMS): it will show. Lower Strength, or take more Bits.");
+}
+
+/// Two numbers of carriers that a mesh may have a place for which has none for `wanted`.
+/// \param roomy see DoesNotFit
+std::array<int, 2> numbers_to_try(int wanted, int roomy)
+{
+    if (roomy > 0 && roomy < wanted)
+        return {roomy, roomy / 2};
+    if (const int usual = recommended_numbers().front(); wanted < usual)
+        return {usual, wanted / 2}; // few are wide, and their values hard to move
+    return {3 * wanted / 4, 3 * wanted / 8};
 }
 
 } // namespace
@@ -204,6 +217,8 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     result.carriers = options.carriers.bits;
     result.pieces = body.pieces;
     result.loose_pieces = body.loose_pieces;
+    const auto looks_marked = row_of(result.method).looks_marked;
+    const bool marked_before = looks_marked && looks_marked(body.surface);
     const Cover cover(body.surface, held_sites(body, options.held));
     const bool floats = options.placement.storage == Storage::Float;
     const auto as_stored = [&](const Points& placed) {
@@ -242,6 +257,11 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     result.recipe = recipe_of(options);
     warn(options, result);
     warn_of_shape(body, result);
+    if (marked_before && result.moved_vertices > 0) // where none moved, it is this very mark
+        result.warnings.emplace_back(
+            "The mesh seems to carry a mark of this kind already, and this one erases it. Where "
+            "both are wanted, take the unmarked mesh and two methods that leave each other "
+            "alone, as Waves or Spectral do with those of vertex norms.");
     result.seconds["measure"] = watch.lap();
     report(progress, 100, "Done");
     surface.points = std::move(marked.points);
@@ -251,22 +271,25 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
 int carriers_that_fit(const Surface& surface, const Key& key, const EmbedOptions& wanted, const DoesNotFit& cause,
                       const Progress& progress)
 {
-    EmbedOptions options = completed(wanted, surface.points.size());
+    const EmbedOptions options = completed(wanted, surface.points.size());
     const int needed = options.message.kind == Kind::Bits ? 1 : static_cast<int>(options.message.bits.size());
-    const int most = 3 * options.carriers.bits / 4;
-    int count = cause.roomy() > 0 ? std::min(most, 3 * cause.roomy() / 4) : most;
-    for (int attempt = 0; attempt < 2 && count >= needed; ++attempt, count /= 2) {
-        options.carriers.bits = count;
-        if (options.message.kind == Kind::Bits)
-            options.message.bits.resize(std::min<std::size_t>(options.message.bits.size(), count));
+    const auto fits = [&](int count) {
+        EmbedOptions tried = options;
+        tried.carriers.bits = count;
+        if (tried.message.kind == Kind::Bits)
+            tried.message.bits.resize(std::min<std::size_t>(tried.message.bits.size(), count));
         Surface copy = surface;
         try {
-            embed(copy, key, options,
+            embed(copy, key, tried,
                   [&progress](int, const char*) { return !progress || progress(50, "Finding how many bits fit"); });
-            return count;
-        } catch (const DoesNotFit&) { // the next is fewer
+            return true;
+        } catch (const DoesNotFit&) {
+            return false;
         }
-    }
+    };
+    for (const int count : numbers_to_try(options.carriers.bits, cause.roomy()))
+        if (count >= needed && fits(count))
+            return count;
     return 0;
 }
 

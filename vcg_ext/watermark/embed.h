@@ -17,8 +17,9 @@ namespace vcg_ext {
 /// \throw Cancelled  where `progress` returned false
 EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& options, const Progress& progress = {});
 
-/// A number of carriers, fewer than `options` asks for but enough for the message, in which embed() finds a place for
-/// it; 0 where it finds none. For who got DoesNotFit: tries two numbers, so it costs two embeddings at most.
+/// A number of carriers, enough for the message, in which embed() finds a place for it; 0 where it finds none. Fewer than
+/// `options` asks for, or the least recommended number where so few fit nowhere. For who got DoesNotFit: costs two
+/// embeddings at most.
 [[nodiscard]] int carriers_that_fit(const Surface& surface, const Key& key, const EmbedOptions& options,
                                     const DoesNotFit& cause, const Progress& progress = {});
 
