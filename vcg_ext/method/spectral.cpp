@@ -181,7 +181,7 @@ struct Aim {
 /// diagonal squared, but never more than three tenths of an edge.
 double least_energy(const Surface& surface)
 {
-    return std::pow(std::min(1.45e-3 * bounding_diagonal(surface), 0.28 * mean_edge_length(surface)), 2);
+    return std::pow(std::min(1.57e-3 * bounding_diagonal(surface), 0.285 * mean_edge_length(surface)), 2);
 }
 
 /// Takes moves back by halves where a face would fold; returns how many vertices that befell.
