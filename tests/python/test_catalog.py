@@ -16,6 +16,7 @@ from pathlib import Path
 
 import meshmark
 import pytest
+import trimesh
 from bodies import body, write_bodies
 from dask.distributed import LocalCluster
 from meshmark.catalog import Ledger, Order, forecast, make_copies
@@ -173,6 +174,27 @@ def test_what_moves_too_much_is_refused_and_tried_again_when_told(order: Order) 
     assert all("are allowed" in reason for reason in outcome.refused.values())
     assert visible(order.copies) == {}
     assert (made(order).made, made(order, retry=True).made) == (0, 2)
+
+
+def test_a_model_that_refuses_a_method_gets_the_next(order: Order) -> None:
+    """A body of a cube's symmetry has no axes for Waves, and a ball no norms for L-M either."""
+    ball = trimesh.creation.icosphere(4)
+    ball.export(order.models / "round.stl")
+    ball.apply_transform(trimesh.transformations.rotation_matrix(1, [1, 2, 3]))
+    ball.vertices *= 1 + 0.2 * (ball.vertices**4).sum(axis=1, keepdims=True)
+    ball.export(order.models / "even.stl")
+    order = replace(order, recipients=order.recipients[:1], settings=Settings(method="Waves"), otherwise=("L-M",))
+    outcome = made(order)
+    assert outcome.made == 2
+    (reason,) = outcome.refused.values()
+    assert "Waves: " in reason
+    assert "L-M: " in reason
+    with Ledger(order.copies / "ledger.sqlite") as ledger:
+        copies = ledger.copies()
+    methods = {Path(copy.file).name: copy.recipe.method for copy in copies}
+    assert methods == {"body0.stl": "Waves", "even.stl": "L-M"}
+    even = next(copy for copy in copies if copy.file.endswith("even.stl"))
+    assert meshmark.detect(order.copies / even.file, key=order.key, **even.recipe.values()).verified
 
 
 def test_one_broken_model_does_not_stop_the_others(order: Order) -> None:
