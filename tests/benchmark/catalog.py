@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A catalogue that is killed halfway and run again: how many copies there are, each once, and what they took.
 
-build/venv/bin/python tests/benchmark/catalog.py cow elephant fandisk --recipients 20
+build/venv/bin/python tests/benchmark/catalog.py
 """
 
 import hashlib
@@ -20,11 +20,16 @@ from meshmark.catalog import Ledger
 from rich import print as show
 
 MESHES = Path(__file__).resolve().parents[2] / "build" / "data" / "meshes"
+MODELS = [
+    "head", "ellipe0.003", "elk", "cylinder", "horizons", "blobby", "blobby_3cc", "knot", "hand", "patch-01",
+    "rotor", "cactus", "three_peaks", "elephant", "triceratops", "cow", "knot1", "retinal", "anchor_dense", "femur",
+    "dino", "homer", "knot2", "b9_mesh", "holes", "fandisk", "lion", "lion-head", "mask_cone", "ALSTOM_TEST4",
+]  # fmt: skip
 OPTIONS = ["models", "who.csv", "out", "--json", "--key-file", "secret.key"]
 
 
 def main(
-    models: Annotated[list[str], typer.Argument(help="Names of meshes in --meshes, without .off")],
+    models: Annotated[list[str], typer.Argument(help="Names of meshes in --meshes, without .off")] = MODELS,
     meshes: Annotated[Path, typer.Option()] = MESHES,
     recipients: Annotated[int, typer.Option()] = 20,
     workers: Annotated[int, typer.Option()] = 1,

@@ -4,7 +4,7 @@
 Copies are marked for twenty recipients of a shop, with the catalogue's own code; each is attacked in every way and
 traced. Unmarked models, and copies of another shop with another key, are attacked and traced in this shop's ledger.
 
-build/venv/bin/python tests/benchmark/trace.py head cow fandisk bunny00 --copies 60
+build/venv/bin/python tests/benchmark/trace.py
 """
 
 import itertools
@@ -29,6 +29,10 @@ from rich.console import Console
 from rich.table import Table
 
 MESHES = Path(__file__).resolve().parents[2] / "build" / "data" / "meshes"
+MODELS = [
+    "hand", "elk", "blobby", "cow", "elephant", "homer", "fandisk", "dino", "lion-head", "fandisk_large",
+    "diplodocus", "bunny00",
+]  # fmt: skip
 SIZES = (2_000, 8_000, 15_000)  # vertices: where the columns of the table end
 RECIPIENTS = 20
 
@@ -126,7 +130,7 @@ WITH_ORIGINAL = "crop 30 %, with the original"
 
 
 def main(
-    models: Annotated[list[str], typer.Argument(help="Names of meshes in --meshes, without .off")],
+    models: Annotated[list[str], typer.Argument(help="Names of meshes in --meshes, without .off")] = MODELS,
     meshes: Annotated[Path, typer.Option()] = MESHES,
     copies: Annotated[int, typer.Option(help="Of all models together.")] = 60,
     strangers: Annotated[int, typer.Option(help="Unmarked files, and files of another shop.")] = 60,
