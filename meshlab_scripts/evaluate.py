@@ -11,12 +11,12 @@ import argparse
 from pathlib import Path
 
 from evaluation.jobs import Site
-from evaluation.plugin import load
 from evaluation.protocol import ProtocolError, read_protocol
 from evaluation.report import write_report
 from evaluation.results import NoResults
 from evaluation.schedule import run_missing
 from evaluation.store import Store
+from meshmark import plugin
 
 ROOT = Path(__file__).resolve().parents[1]
 PROTOCOLS = Path(__file__).resolve().parent / "protocols"
@@ -49,7 +49,7 @@ def main() -> None:
     protocol.keys = arguments.keys or protocol.keys
     protocol.meshes = arguments.mesh or protocol.meshes
     site = Site(arguments.meshes.resolve(), arguments.plugin.resolve(), (arguments.work / "marked").resolve())
-    load(site.plugin)
+    plugin.load(site.plugin)
     site.cache.mkdir(parents=True, exist_ok=True)
     store = Store(arguments.work / "results.sqlite")
     if arguments.retry:

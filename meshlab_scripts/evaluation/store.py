@@ -7,8 +7,8 @@ from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
 
+from .filters import Numbers
 from .jobs import Job
-from .plugin import Numbers
 
 
 class Store:

@@ -9,10 +9,12 @@ from pathlib import Path
 
 import numpy as np
 import pymeshlab
+from meshmark import Refused, plugin
+from meshmark.host import Value
 
-from . import frames, plugin
+from . import frames
+from .filters import Numbers, apply, opened, save
 from .jobs import METHODS, Job, Site, mesh_file
-from .plugin import Numbers, Value
 
 STRENGTHS = {"Mean": (0.002, 0.45), "Variance": (0.002, 0.3), "Spectral": (2.0, 1000.0)}  # what the plugin takes
 STEPS = 20  # of the search for a strength, at most
@@ -31,16 +33,18 @@ def run(job: Job, site: Site, after: object = None) -> tuple[Numbers, str]:
 def embed(job: Job, site: Site) -> Numbers:
     """Marks the mesh, measures the mark against the cover, and reads it back from the file."""
     cover = mesh_file(site.meshes, job.mesh)
-    meshes = plugin.opened(cover, cover)
-    results = plugin.embed(meshes, message=job.message, strength=_strength(job, site), **_carriers(job))
-    plugin.save(meshes, _marked(job, site))
+    strength = _strength(job, site)
+    with opened(cover, cover) as meshes:
+        results = apply(meshes, plugin.EMBED, message=job.message, strength=strength, **_carriers(job))
+        save(meshes, _marked(job, site))
+        distortion = apply(meshes, plugin.MEASURE, reference=0)
     results["seconds"] = sum(
         value for name, value in results.items() if name.startswith("seconds_") and name != "seconds_measure"
     )
     moved = sum(value for name, value in results.items() if name.startswith("moves_"))
     results |= {name: value / moved for name, value in results.items() if name.startswith("moves_")}
-    results |= plugin.distortion(meshes, reference=0)
-    return results | _read(plugin.opened(_marked(job, site)), job)
+    with opened(_marked(job, site)) as meshes:
+        return results | distortion | _read(meshes, job)
 
 
 def attack(job: Job, site: Site) -> Numbers:
@@ -48,23 +52,24 @@ def attack(job: Job, site: Site) -> Numbers:
     marked = _marked(job.mark, site)
     if not marked.exists():
         embed(job.mark, site)
-    meshes = plugin.opened(marked)
-    results = _attack(meshes, job)
-    return {name: results[name] for name in ("vertices", "faces")} | _read(meshes, job)
+    with opened(marked) as meshes:
+        results = _attack(meshes, job)
+        return {name: results[name] for name in ("vertices", "faces")} | _read(meshes, job)
 
 
 def null(job: Job, site: Site) -> Numbers:
     """Looks for the mark where there is none."""
-    return _read(plugin.opened(mesh_file(site.meshes, job.mesh)), job)
+    with opened(mesh_file(site.meshes, job.mesh)) as meshes:
+        return _read(meshes, job)
 
 
 def align(job: Job, site: Site) -> Numbers:
     """How far the attack moves the frame of the mesh: centres in parts of the diagonal, axes in degrees."""
-    meshes = plugin.opened(mesh_file(site.meshes, job.mesh))
-    before = _frames(meshes)
-    diagonal = meshes.current_mesh().bounding_box().diagonal()
-    _attack(meshes, job)
-    after = _frames(meshes)
+    with opened(mesh_file(site.meshes, job.mesh)) as meshes:
+        before = _frames(meshes)
+        diagonal = meshes.current_mesh().bounding_box().diagonal()
+        _attack(meshes, job)
+        after = _frames(meshes)
     results: Numbers = {}
     for way in frames.WAYS:
         distance, angle = frames.shift(before[way], after[way])
@@ -81,7 +86,7 @@ def _carriers(job: Job) -> dict[str, Value]:
 
 
 def _read(meshes: pymeshlab.MeshSet, job: Job) -> Numbers:
-    found = plugin.detect(meshes, expected=job.message, **_carriers(job))
+    found = apply(meshes, plugin.DETECT, expected=job.message, **_carriers(job))
     return {"detection_ratio": found["detection_ratio"], "p_value": found["p_binomial"]}
 
 
@@ -91,7 +96,8 @@ def _attack(meshes: pymeshlab.MeshSet, job: Job) -> Numbers:
         points = meshes.current_mesh().vertex_matrix()
         norms = np.linalg.norm(points - points.mean(axis=0), axis=1)
         amount *= norms.mean() / norms.max()
-    return plugin.attack(meshes, attack=job.attack, amount=amount, iterations=job.iterations, seed=job.key)
+    values = {"attack": job.attack, "amount": amount, "iterations": job.iterations, "seed": job.key}
+    return apply(meshes, plugin.ATTACK, **values)
 
 
 def _frames(meshes: pymeshlab.MeshSet) -> dict[str, tuple[frames.Array, frames.Array]]:
@@ -151,11 +157,11 @@ def _strongest(job: Job, site: Site) -> float | None:
 def _excess(job: Job, strength: float, site: Site) -> float:
     """The mark's distortion over its limits, the worst of them; infinite where the mark does not read back."""
     cover = mesh_file(site.meshes, job.mesh)
-    meshes = plugin.opened(cover, cover)
-    try:
-        results = plugin.embed(meshes, message=job.message, strength=strength, **_carriers(job))
-    except pymeshlab.PyMeshLabException:
-        return math.inf
-    if any(name not in results for name, _ in job.limits):  # MSDM, which takes no samples
-        results = plugin.distortion(meshes, reference=0, samples=1) | results
+    with opened(cover, cover) as meshes:
+        try:
+            results = apply(meshes, plugin.EMBED, message=job.message, strength=strength, **_carriers(job))
+        except Refused:
+            return math.inf
+        if any(name not in results for name, _ in job.limits):  # MSDM, which takes no samples
+            results = apply(meshes, plugin.MEASURE, reference=0, samples=1) | results
     return max(results[name] / limit for name, limit in job.limits)

@@ -11,8 +11,9 @@ import pymeshlab
 
 from . import host, plugin
 from .errors import FormatError, MeshmarkError, MovesTooMuch, NotReadBack
-from .formats import Body, read_body, weld
+from .formats import Body, Points, Skin, read_body, weld
 from .key import Key, find_key
+from .layer import Layer
 from .length import Length, read_length
 from .reports import AttackReport, DetectReport, DistortionReport, EmbedReport
 from .settings import Method, Settings, Statistic
@@ -63,10 +64,11 @@ def embed(
             "it then: the mark outlives that."
         )
     body = read_body(source)
-    with layer_of(body) as (meshes, number):
+    with host.own_meshes() as meshes:
+        layer = Layer.add(meshes, body)
         report = _embed(meshes, values, secret)
         _check_move(report, limit, body.unit)
-        moved = meshes.current_mesh().vertex_matrix()[number]
+        moved = layer.moved(meshes.current_mesh())
     found = Settings(method, statistic, report.carriers, trim)
     _write_checked(body, moved, target, message, secret, found)
     return report
@@ -158,21 +160,16 @@ def opened(mesh: Mesh) -> Iterator[pymeshlab.MeshSet]:
     if isinstance(mesh, pymeshlab.MeshSet):
         yield mesh
         return
-    with layer_of(read_body(Path(mesh))) as (meshes, _):
+    body = read_body(Path(mesh))
+    with host.own_meshes() as meshes:
+        _add(meshes, body)
         yield meshes
 
 
-@contextmanager
-def layer_of(body: Body) -> Iterator[tuple[pymeshlab.MeshSet, object]]:
-    """A MeshSet with this body as its only layer, and the number of each of its points there."""
-    with host.own_meshes() as meshes:
-        yield meshes, _add(meshes, body)
-
-
-def _add(meshes: pymeshlab.MeshSet, body: Body) -> object:
+def _add(meshes: pymeshlab.MeshSet, body: Body) -> None:
+    """Its shape alone."""
     points, number = weld(body.points)
     meshes.add_mesh(pymeshlab.Mesh(points, number[body.faces].astype("int32")))
-    return number
 
 
 def _embed(meshes: pymeshlab.MeshSet, values: dict[str, host.Value], key: Key) -> EmbedReport:
@@ -207,11 +204,13 @@ def _check_move(report: EmbedReport, limit: Length | None, unit: str) -> None:
     )
 
 
-def _write_checked(body: Body, moved: object, target: Path, message: str, key: Key, settings: Settings) -> None:
+def _write_checked(
+    body: Body, moved: tuple[Points, Skin], target: Path, message: str, key: Key, settings: Settings
+) -> None:
     """Writes beside the target, reads that again, and puts it in the target's place where the message is there."""
     part = target.with_name(f".{os.getpid()}-{target.name}")
     try:
-        body.write(part, moved)
+        body.write(part, *moved)
         found = detect(part, key=key, expected=message, **settings.values())
         if not found.present:
             raise NotReadBack(f"'{target}' does not read back: {found.verdict} Nothing was written.")

@@ -37,11 +37,11 @@ def path() -> Path:
     )
 
 
-def load() -> None:
-    """Loads it, unless the process has it already."""
+def load(named: Path | None = None) -> None:
+    """Loads it, or the one that is named, unless the process has one already."""
     if _missing() == set():
         return
-    found = path()
+    found = named or path()
     if SODIUM.is_file():
         ctypes.CDLL(str(SODIUM), mode=ctypes.RTLD_GLOBAL)
     try:

@@ -2,7 +2,6 @@
 """A catalogue's copies: whole, each once, whatever kills the run; and a ledger that always agrees with the files."""
 
 import hashlib
-import json
 import os
 import signal
 import sqlite3
@@ -16,6 +15,7 @@ from pathlib import Path
 
 import meshmark
 import pytest
+import trimesh
 from bodies import body, write_bodies
 from dask.distributed import LocalCluster
 from meshmark.catalog import Ledger, Order, forecast, make_copies
@@ -91,24 +91,24 @@ def test_each_copy_says_whose_it_is_and_the_ledger_knows(order: Order) -> None:
 def test_killed_halfway_and_run_again_all_are_there_and_none_twice(order: Order, tmp_path: Path) -> None:
     write_bodies(order.models, range(2))
     (tmp_path / "who.csv").write_text("recipient\n" + "".join(f"buyer {n}\n" for n in range(6)))
-    line = [COMMAND, "catalog", "models", "who.csv", "out", "--method", "L-M", "--workers", "1", "--json",
-            "--key-file", "secret.key"]  # fmt: skip
-    with subprocess.Popen(line, cwd=tmp_path, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL) as run:
+    line = [COMMAND, "catalog", "models", "who.csv", "out", "--method", "L-M", "--workers", "1", "--key-file",
+            "secret.key"]  # fmt: skip
+    quiet = {"stderr": subprocess.DEVNULL, "stdout": subprocess.DEVNULL}
+    with subprocess.Popen(line, cwd=tmp_path, start_new_session=True, **quiet) as run:
         while run.poll() is None and len(visible(order.copies)) < 5:
             time.sleep(0.02)
         assert run.poll() is None, "it was done before it could be killed"
-        os.kill(run.pid, signal.SIGKILL)
+        os.killpg(run.pid, signal.SIGKILL)  # its worker, too
     files = visible(order.copies)
     assert entered(order.copies).items() <= files.items() <= entered(order.copies, finished=False).items()
     kept = {name: (order.copies / name).stat().st_mtime_ns for name in entered(order.copies)}
 
-    done = subprocess.run(line, cwd=tmp_path, text=True, stdout=subprocess.PIPE, check=True)
-    outcome = json.loads(done.stdout)
+    outcome = made(replace(order, recipients=read_recipients(tmp_path / "who.csv")))
     files = visible(order.copies)
     assert len(files) == 12
     assert files == entered(order.copies)
-    assert outcome["made"] + outcome["before"] == 12
-    assert outcome["before"] >= 4
+    assert outcome.made + outcome.before == 12
+    assert outcome.before >= 4
     assert all((order.copies / name).stat().st_mtime_ns == when for name, when in kept.items())
     assert not list(order.copies.rglob(".part*"))
 
@@ -173,6 +173,27 @@ def test_what_moves_too_much_is_refused_and_tried_again_when_told(order: Order) 
     assert all("are allowed" in reason for reason in outcome.refused.values())
     assert visible(order.copies) == {}
     assert (made(order).made, made(order, retry=True).made) == (0, 2)
+
+
+def test_a_model_that_refuses_a_method_gets_the_next(order: Order) -> None:
+    """A body of a cube's symmetry has no axes for Waves, and a ball no norms for L-M either."""
+    ball = trimesh.creation.icosphere(4)
+    ball.export(order.models / "round.stl")
+    ball.apply_transform(trimesh.transformations.rotation_matrix(1, [1, 2, 3]))
+    ball.vertices *= 1 + 0.2 * (ball.vertices**4).sum(axis=1, keepdims=True)
+    ball.export(order.models / "even.stl")
+    order = replace(order, recipients=order.recipients[:1], settings=Settings(method="Waves"), otherwise=("L-M",))
+    outcome = made(order)
+    assert outcome.made == 2
+    (reason,) = outcome.refused.values()
+    assert "Waves: " in reason
+    assert "L-M: " in reason
+    with Ledger(order.copies / "ledger.sqlite") as ledger:
+        copies = ledger.copies()
+    methods = {Path(copy.file).name: copy.recipe.method for copy in copies}
+    assert methods == {"body0.stl": "Waves", "even.stl": "L-M"}
+    even = next(copy for copy in copies if copy.file.endswith("even.stl"))
+    assert meshmark.detect(order.copies / even.file, key=order.key, **even.recipe.values()).verified
 
 
 def test_one_broken_model_does_not_stop_the_others(order: Order) -> None:

@@ -167,7 +167,7 @@ def test_what_is_written_is_the_same_file_with_other_positions(tmp_path: Path, k
     shape = read_body(path)
     moved = shape.points + np.random.default_rng(1).normal(size=shape.points.shape)
     out = tmp_path / f"out{path.suffix}"
-    shape.write(out, moved)
+    shape.write(out, moved, shape.skin)
     again = read_body(out)
     np.testing.assert_allclose(again.points[again.faces], moved[shape.faces], rtol=1e-6, atol=1e-5)
     np.testing.assert_allclose(in_order(moved[shape.faces]), read_by_trimesh(out), rtol=1e-5, atol=1e-4)
@@ -243,7 +243,7 @@ def test_one_mesh_in_two_places_is_read_and_not_written(tmp_path: Path) -> None:
     shape = read_body(tmp_path / "two.glb")
     assert len(shape.faces) == 2 * len(FACES)
     with pytest.raises(meshmark.FormatError, match="several places"):
-        shape.write(tmp_path / "out.glb", shape.points)
+        shape.write(tmp_path / "out.glb", shape.points, shape.skin)
 
 
 def test_what_the_host_misreads_is_refused(tmp_path: Path) -> None:

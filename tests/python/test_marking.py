@@ -14,13 +14,13 @@ from doors import MESHES, PyMeshLab
 
 KEY = "correct horse battery staple"
 Marked = tuple[Path, meshmark.EmbedReport]
-FANDISK, CUBE = MESHES / "fandisk.off", MESHES / "cube.off"
+ELEPHANT, CUBE = MESHES / "elephant.off", MESHES / "cube.off"
 
 
 @pytest.fixture(scope="module")
 def marked(tmp_path_factory: pytest.TempPathFactory) -> Marked:
-    out = tmp_path_factory.mktemp("marked") / "fandisk.off"
-    return out, meshmark.embed(FANDISK, out, message="id:17", key=KEY, method="Waves")
+    out = tmp_path_factory.mktemp("marked") / "elephant.off"
+    return out, meshmark.embed(ELEPHANT, out, message="id:17", key=KEY, method="Waves")
 
 
 def test_reports_are_typed_and_have_texts(marked: Marked) -> None:
@@ -38,13 +38,13 @@ def test_a_list_of_candidates_names_one(marked: Marked) -> None:
     found = meshmark.detect(marked[0], expected=[f"id:{n}" for n in range(100)], **settings)
     assert (found.candidate, found.found) == (17, True)
     assert meshmark.detect(marked[0], expected="id:18", **settings).found is False
-    assert meshmark.detect(FANDISK, **settings).found is False
+    assert meshmark.detect(ELEPHANT, **settings).found is False
 
 
 def test_a_mesh_set_is_marked_in_place_and_the_key_is_not_in_its_history(tmp_path: Path) -> None:
     PyMeshLab()
     meshes = pymeshlab.MeshSet()
-    meshes.load_new_mesh(str(FANDISK))
+    meshes.load_new_mesh(str(ELEPHANT))
     before = meshes.current_mesh().vertex_matrix().copy()
     report = meshmark.embed(meshes, message="id:5", key=KEY, method="Waves")
     assert report.moved_vertices == (meshes.current_mesh().vertex_matrix() != before).any(axis=1).sum() > 0
@@ -62,10 +62,10 @@ def test_too_long_a_move_is_refused_in_the_files_unit(
     moves = marked[1].max_displacement
     for limit in (f"{moves * 0.99:.9f}mm", f"{moves * 990:.6f} um", moves * 0.99):
         with pytest.raises(meshmark.MovesTooMuch, match="strength"):
-            meshmark.embed(FANDISK, tmp_path / "out.off", message="id:17", key=KEY, method="Waves", max_move=limit)
+            meshmark.embed(ELEPHANT, tmp_path / "out.off", message="id:17", key=KEY, method="Waves", max_move=limit)
     assert list(tmp_path.iterdir()) == []
     out = tmp_path / "out.off"
-    meshmark.embed(FANDISK, out, message="id:17", key=KEY, method="Waves", max_move=f"{moves * 1.01}mm")
+    meshmark.embed(ELEPHANT, out, message="id:17", key=KEY, method="Waves", max_move=f"{moves * 1.01}mm")
     assert out.read_bytes() == marked[0].read_bytes()
 
 
@@ -74,11 +74,11 @@ def test_too_long_a_move_is_refused_in_the_files_unit(
     [
         ({"mesh": CUBE}, "as wide in every direction"),
         ({"mesh": "nothere.stl"}, "There is no file 'nothere.stl'"),
-        ({"mesh": FANDISK, "message": ""}, "message"),
-        ({"mesh": FANDISK, "key": ""}, "key is empty"),
-        ({"mesh": FANDISK, "max_move": "5 parsecs"}, "is no length"),
-        ({"mesh": FANDISK, "out": "marked.stl"}, "another kind"),
-        ({"mesh": FANDISK, "method": "Magic"}, "Magic"),
+        ({"mesh": ELEPHANT, "message": ""}, "message"),
+        ({"mesh": ELEPHANT, "key": ""}, "key is empty"),
+        ({"mesh": ELEPHANT, "max_move": "5 parsecs"}, "is no length"),
+        ({"mesh": ELEPHANT, "out": "marked.stl"}, "another kind"),
+        ({"mesh": ELEPHANT, "method": "Magic"}, "Magic"),
     ],
 )
 def test_what_cannot_be_done_is_said_and_leaves_no_file(
@@ -109,7 +109,7 @@ print("end")
 
 
 def test_a_plain_loop_over_files_lives_through_refusals(tmp_path: Path) -> None:
-    files = [CUBE, MESHES / "homer.off", "nothere.off", CUBE]
+    files = [CUBE, ELEPHANT, "nothere.off", CUBE]
     done = subprocess.run(
         [sys.executable, "-c", LOOP, *map(str, files)],
         cwd=tmp_path,
@@ -124,9 +124,9 @@ def test_a_plain_loop_over_files_lives_through_refusals(tmp_path: Path) -> None:
 
 
 def test_attack_and_measure(tmp_path: Path) -> None:
-    report = meshmark.attack(FANDISK, tmp_path / "noisy.ply", attack="Noise", amount=0.001, seed=7)
-    assert (report.attack, report.amount, report.seed, report.vertices) == ("Noise", 0.001, 7, 6475)
-    far = meshmark.measure(tmp_path / "noisy.ply", FANDISK)
+    report = meshmark.attack(ELEPHANT, tmp_path / "noisy.ply", attack="Noise", amount=0.001, seed=7)
+    assert (report.attack, report.amount, report.seed, report.vertices) == ("Noise", 0.001, 7, 2775)
+    far = meshmark.measure(tmp_path / "noisy.ply", ELEPHANT)
     assert 0 < far.mean <= far.mrms <= far.hausdorff
-    assert meshmark.measure(FANDISK, FANDISK).hausdorff == pytest.approx(0, abs=1e-12)
+    assert meshmark.measure(ELEPHANT, ELEPHANT).hausdorff == pytest.approx(0, abs=1e-12)
     assert np.isfinite(far.snr_db)

@@ -28,13 +28,13 @@ def test_the_wheel_works_by_itself(tmp_path: Path) -> None:
         names = archive.namelist()
         (about,) = (name for name in names if name.endswith("METADATA"))
         needs = archive.read(about).decode()
+        archive.extractall(tmp_path / "alone")  # all that an installer does to a wheel without scripts of its own
     assert {"meshmark/libfilter_watermark.so", "meshmark/libsodium.so.23", "meshmark/command/app.py"} <= set(names)
     assert f"Requires-Dist: pymeshlab=={metadata.version('pymeshlab')}" in needs
 
     alone = tmp_path / "alone"
-    subprocess.run([*pip, "install", "--no-deps", "--target", alone, wheel], check=True)
     done = subprocess.run(
-        [sys.executable, "-c", SCRIPT, MESHES / "fandisk.off"],
+        [sys.executable, "-c", SCRIPT, MESHES / "elephant.off"],
         cwd=tmp_path,
         env={**os.environ, "PYTHONPATH": str(alone)},
         text=True,

@@ -117,10 +117,11 @@ class Ledger:
 
         :raises MeshmarkError: where the copies so far were marked with another one
         """
+        check = key.check(self.salt)
         with self._transaction():
             if self.key_check is None:
-                self._about("key check", key.check(self.salt))
-        if key.check(self.salt) != self.key_check:
+                self._about("key check", check)
+        if check != self.key_check:
             raise MeshmarkError(f"The copies of '{self.path}' were marked with another key. Use that one.")
 
     def models(self) -> list[Model]:

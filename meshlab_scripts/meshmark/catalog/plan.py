@@ -30,6 +30,7 @@ class Order:
     settings: Settings
     strength: float = 0
     max_move: Length | None = None
+    otherwise: tuple[str, ...] = ()  # methods for models that refuse that of the settings, in this order
 
 
 @dataclass(frozen=True)

@@ -3,14 +3,17 @@
 
 import os
 import time
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
 from .. import marking
-from ..errors import MeshmarkError
+from ..errors import MeshmarkError, MovesTooMuch, NotReadBack, Refused
 from ..key import Key
-from .plan import Job, digest
+from ..reports import EmbedReport
+from ..settings import Settings
+from .plan import Job, Order, digest
 
 PART = ".part-"  # begins the names of files that are on their way
 
@@ -35,10 +38,7 @@ def make(job: Job, run: str) -> Made:
     try:
         _require_key(job)
         target.parent.mkdir(parents=True, exist_ok=True)
-        report = marking.embed(
-            job.source, part, message=job.message, key=job.order.key, strength=job.order.strength,
-            max_move=job.order.max_move, **job.order.settings.values(),
-        )  # fmt: skip
+        report, settings = _marked(job, part)
         with part.open("rb") as file:
             os.fsync(file.fileno())
     except (MeshmarkError, OSError) as error:
@@ -48,10 +48,34 @@ def make(job: Job, run: str) -> Made:
     return Made(
         part=part.relative_to(job.order.copies).as_posix(),
         sha256=digest(part),
-        recipe=vars(replace(job.order.settings, bits=report.carriers)),
+        recipe=vars(replace(settings, bits=report.carriers)),
         figures={name: value for name, value in report.json().items() if name in kept},
         seconds=time.perf_counter() - began,
     )
+
+
+def _marked(job: Job, part: Path) -> tuple[EmbedReport, Settings]:
+    """By the first method that the model takes. Where it takes none, the error has the reason of each."""
+    reasons = []
+    for settings in _choices(job.order):
+        try:
+            report = marking.embed(
+                job.source, part, message=job.message, key=job.order.key, strength=job.order.strength,
+                max_move=job.order.max_move, **settings.values(),
+            )  # fmt: skip
+        except (Refused, MovesTooMuch, NotReadBack) as error:
+            reasons.append((settings.method, error))
+        else:
+            return report, settings
+    if len(reasons) == 1:
+        raise reasons[0][1]
+    raise Refused(" ".join(f"{method}: {error}" for method, error in reasons))
+
+
+def _choices(order: Order) -> Iterator[Settings]:
+    yield order.settings
+    for method in order.otherwise:
+        yield replace(order.settings, method=method)
 
 
 def sweep(folder: Path) -> None:

@@ -16,7 +16,7 @@ from ..catalog.run import Forecast, Outcome
 from ..key import find_key
 from ..length import read_length
 from ..settings import Method, Settings, Statistic
-from .options import AsJson, Bits, KeyFile, MaxMove, MethodName, StatisticName, Strength, Trim
+from .options import AsJson, Bits, KeyFile, MaxMove, MethodNames, StatisticName, Strength, Trim
 from .output import console, errors, print_json, warn
 
 
@@ -38,7 +38,7 @@ def catalog(
     copies: Annotated[Path, typer.Argument(metavar="OUT", help="Where the copies go.", show_default=False)],
     ledger: Annotated[Path | None, typer.Option("--ledger", help="Default: OUT/ledger.sqlite")] = None,
     key_file: KeyFile = None,
-    method: MethodName = Method.LAYERED,
+    method: MethodNames = [Method.LAYERED, Method.LM],  # noqa: B006 (typer copies it)
     statistic: StatisticName = Statistic.MEAN,
     bits: Bits = 0,
     trim: Trim = -1,
@@ -59,8 +59,9 @@ def catalog(
     counts only where its mark is there. Exit code 1: some copies could not be made.
     """
     order = Order(
-        models, copies, read_recipients(recipients), find_key(None, key_file), Settings(method, statistic, bits, trim),
-        strength, None if max_move is None else read_length(max_move),
+        models, copies, read_recipients(recipients), find_key(None, key_file),
+        Settings(method[0], statistic, bits, trim), strength, None if max_move is None else read_length(max_move),
+        tuple(method[1:]),
     )  # fmt: skip
     file = ledger or copies / "ledger.sqlite"
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())

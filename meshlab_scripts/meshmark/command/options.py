@@ -14,6 +14,10 @@ KeyFile = Annotated[
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="The whole report as JSON on standard output.")]
 MethodName = Annotated[Method, typer.Option("--method", help="Detection needs the same one.")]
+MethodNames = Annotated[
+    list[Method],
+    typer.Option("--method", help="Again for another one, which models take that refuse the first; detection is told."),
+]
 StatisticName = Annotated[Statistic, typer.Option("--statistic", help="Detection needs the same one.")]
 Bits = Annotated[int, typer.Option("--bits", min=0, max=1024, help="Number of carriers; 0 finds what suits.")]
 Trim = Annotated[float, typer.Option("--trim", help="-1 draws it from the key. Detection needs the same.")]

@@ -39,7 +39,7 @@ def embed(
     rehearse: Annotated[bool, typer.Option("--rehearse", help="Say which attacks the mark survives.")] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Hide a message in IN, write it to OUT, and read it back from there. Only positions change."""
+    """Hide a message in IN, write it to OUT, and read it back from there. What OUT shows stays where it was."""
     with busy(f"Marking {source.name}"):
         report = marking.embed(
             source, target, message=message, key=find_key(None, key_file), method=method, statistic=statistic,

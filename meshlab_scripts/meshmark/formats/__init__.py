@@ -1,23 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files: the shape that is in them, and the same files with other positions."""
+"""Files: the shape that is in them and what it shows, and the same files with other positions."""
 
 from collections.abc import Callable
 from pathlib import Path
 
 from ..errors import FormatError
-from . import glb, hosted, lines, ply, stl, threemf
-from .body import Body, weld
+from . import glb, hosted, obj, off, ply, stl, threemf
+from .body import Body, Corners, Points, Skin, weld
 
 READERS: dict[str, Callable[[Path], Body]] = {
     ".stl": stl.read,
     ".ply": ply.read,
-    ".obj": lines.read_obj,
-    ".off": lines.read_off,
+    ".obj": obj.read,
+    ".off": off.read,
     ".glb": glb.read,
     ".3mf": threemf.read,
 }
 
-__all__ = ["READERS", "Body", "read_body", "weld"]
+__all__ = ["READERS", "Body", "Corners", "Points", "Skin", "read_body", "weld"]
 
 
 def read_body(path: Path) -> Body:

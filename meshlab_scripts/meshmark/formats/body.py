@@ -2,7 +2,7 @@
 """What a file says of the shape, and how its positions are written back with all else left as it is."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +10,16 @@ from numpy.typing import NDArray
 
 Points = NDArray[np.float64]  # a row a vertex
 Faces = NDArray[np.int32]  # a row a triangle
+Corners = NDArray[np.float64]  # of each triangle's three corners some numbers: faces x 3 x numbers
+
+
+@dataclass(frozen=True)
+class Skin:
+    """What corners of triangles show. It stays where it is on the surface while vertices slide beneath it."""
+
+    texture: Corners | None = None  # u and v
+    colors: Corners | None = None  # red, green, blue and alpha, from 0 to 1
+    picture: NDArray[np.int32] | None = None  # of each triangle; two pictures have nothing to do with each other
 
 
 @dataclass(frozen=True)
@@ -19,7 +29,8 @@ class Body:
     points: Points
     faces: Faces
     unit: str  # of length.MILLIMETRES
-    write: Callable[[Path, Points], None]  # the same file with these positions
+    write: Callable[[Path, Points, Skin], None]  # the same file with these positions, and this skin
+    skin: Skin = field(default_factory=Skin)
 
 
 def weld(corners: Points) -> tuple[Points, NDArray[np.int64]]:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""GLB (binary glTF 2.0): positions are changed in the file's own buffer; all else stays byte for byte.
+"""GLB (binary glTF 2.0): positions, the first texture coordinates and colours are changed in the file's own buffer; all
+else stays byte for byte.
 
 The body is the scene with its nodes' matrices. Khronos: glTF 2.0 specification, sections 3.6 (accessors), 4 (GLB).
 """
@@ -14,13 +15,15 @@ from typing import Any
 import numpy as np
 
 from ..errors import FormatError
-from .body import Body, Faces, Points, write_whole
+from .body import Body, Corners, Faces, Points, Skin, write_whole
+from .corners import of_vertices
 
 Json = dict[str, Any]
 _JSON, _BIN = 0x4E4F534A, 0x004E4942
 _COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _COMPRESSED = ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization")
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
+_TEXTURE, _COLOR = "TEXCOORD_0", "COLOR_0"
 
 
 @dataclass(frozen=True)
@@ -33,31 +36,74 @@ class _Part:
     count: int
 
 
+@dataclass(frozen=True)
+class _Shown:
+    """An accessor of what vertices show, and the triangles of a primitive that show it."""
+
+    accessor: int
+    first: int
+    faces: Faces  # by their place in the accessor
+
+
 def read(path: Path) -> Body:
     """All triangles of the scene."""
     document, binary = _open(path)
     parts: list[_Part] = []
     points: list[Points] = []
     faces: list[Faces] = []
+    shown: dict[str, list[_Shown]] = {_TEXTURE: [], _COLOR: []}
     for primitive, matrix in _primitives(document):
         number = primitive["attributes"]["POSITION"]
         part = next((p for p in parts if p.accessor == number and p.matrix is matrix), None)
         if part is None:
-            local = _view(document, binary, number).astype(float)
-            part = _Part(number, matrix, sum(map(len, points)), len(local))
+            own = _view(document, binary, number).astype(float)
+            part = _Part(number, matrix, sum(map(len, points)), len(own))
             parts.append(part)
-            points.append(local @ matrix[:3, :3].T + matrix[:3, 3])
-        faces.append(_triangles(document, binary, primitive, part.count) + part.begin)
+            points.append(own @ matrix[:3, :3].T + matrix[:3, 3])
+        local = _triangles(document, binary, primitive, part.count)
+        for name, places in shown.items():
+            if name in primitive["attributes"]:
+                places.append(_Shown(primitive["attributes"][name], sum(map(len, faces)), local))
+        faces.append(local + part.begin)
     if not points:
         raise FormatError(f"'{path}' has no triangles.")
 
-    def write(out: Path, moved: Points) -> None:
-        _write(path, out, parts, moved)
+    def write(out: Path, moved: Points, skin: Skin) -> None:
+        _write(path, out, parts, moved, [(shown[_TEXTURE], skin.texture), (shown[_COLOR], skin.colors)])
 
-    return Body(np.concatenate(points), np.concatenate(faces).astype(np.int32), "m", write)
+    count = sum(map(len, faces))
+    skin = Skin(
+        _corners(document, binary, shown[_TEXTURE], np.zeros((count, 3, 2))),
+        _corners(document, binary, shown[_COLOR], np.ones((count, 3, 4))),
+        _pictures(shown[_TEXTURE], count),
+    )
+    return Body(np.concatenate(points), np.concatenate(faces).astype(np.int32), "m", write, skin)
 
 
-def _write(path: Path, out: Path, parts: list[_Part], moved: Points) -> None:
+def _corners(document: Json, binary: bytearray, shown: list[_Shown], corners: Corners) -> Corners | None:
+    """What the triangles show at their corners; None where none shows anything."""
+    for one in shown:
+        values = _view(document, binary, one.accessor)
+        corners[one.first : one.first + len(one.faces), :, : values.shape[1]] = (values / _full(values))[one.faces]
+    return corners if shown else None
+
+
+def _pictures(shown: list[_Shown], count: int) -> np.ndarray | None:
+    """Triangles of different accessors share no texture."""
+    pictures = np.full(count, -1, dtype=np.int32)
+    for one in shown:
+        pictures[one.first : one.first + len(one.faces)] = one.accessor
+    return pictures if len(np.unique(pictures)) > 1 else None
+
+
+def _full(values: np.ndarray) -> float:
+    """What stands for 1."""
+    return float(np.iinfo(values.dtype).max) if values.dtype.kind in "iu" else 1
+
+
+def _write(
+    path: Path, out: Path, parts: list[_Part], moved: Points, skin: list[tuple[list[_Shown], Corners | None]]
+) -> None:
     if len({part.accessor for part in parts}) < len(parts):
         raise FormatError(f"'{path}' shows one mesh in several places. Make the copies real ones first, or mark one.")
     document, binary = _open(path)
@@ -67,10 +113,23 @@ def _write(path: Path, out: Path, parts: list[_Part], moved: Points) -> None:
         _view(document, binary, part.accessor)[:] = local
         accessor = document["accessors"][part.accessor]
         accessor["min"], accessor["max"] = local.min(axis=0).tolist(), local.max(axis=0).tolist()
+    for shown, corners in skin:
+        for one in shown if corners is not None else []:
+            _show(document, binary, one, corners[one.first : one.first + len(one.faces)])
     text = json.dumps(document, separators=(",", ":"), ensure_ascii=False).encode()
     text += b" " * (-len(text) % 4)
     chunks = struct.pack("<II", len(text), _JSON) + text + struct.pack("<II", len(binary), _BIN) + bytes(binary)
     write_whole(out, struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
+
+
+def _show(document: Json, binary: bytearray, shown: _Shown, corners: Corners) -> None:
+    values = _view(document, binary, shown.accessor)
+    full = _full(values)
+    new = of_vertices(shown.faces, corners[..., : values.shape[1]], values / full) * full
+    values[:] = new if full == 1 else np.round(new)
+    accessor = document["accessors"][shown.accessor]
+    if "min" in accessor:
+        accessor["min"], accessor["max"] = values.min(axis=0).tolist(), values.max(axis=0).tolist()
 
 
 def _open(path: Path) -> tuple[Json, bytearray]:
@@ -136,7 +195,7 @@ def _view(document: Json, binary: bytearray, number: int) -> np.ndarray:
     if view.get("buffer", 0) != 0 or "uri" in document["buffers"][0]:
         raise FormatError("A GLB with buffers outside of the file is not read. Export it as one file.")
     kind = np.dtype(_COMPONENTS[accessor["componentType"]])
-    width = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}[accessor["type"]]
+    width = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}[accessor["type"]]
     stride = view.get("byteStride", width * kind.itemsize)
     begin = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
     return np.ndarray((accessor["count"], width), kind, binary, begin, (stride, kind.itemsize))

@@ -7,7 +7,7 @@ import numpy as np
 
 from .. import host
 from ..errors import FormatError
-from .body import Body, Faces, Points
+from .body import Body, Faces, Points, Skin
 
 
 def geometry(path: Path) -> tuple[Points, Faces]:
@@ -25,7 +25,7 @@ def geometry(path: Path) -> tuple[Points, Faces]:
 def read(path: Path) -> Body:
     """A file to be read only."""
 
-    def write(out: Path, moved: Points) -> None:
+    def write(out: Path, moved: Points, skin: Skin) -> None:
         raise FormatError(
             f"'{out.name}': this format can be read, but not written with all that is in it. "
             "Save the model as STL, PLY, OBJ, OFF, GLB or 3MF first."

@@ -1,6 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""PLY, binary and ASCII. Colours, texture coordinates, quality and properties that nobody knows stay."""
+"""PLY, binary and ASCII. Quality and properties that nobody knows stay; colours of vertices and texture coordinates, of
+vertices or of faces' corners, are carried.
+"""
 
+import itertools
+import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -8,7 +13,8 @@ import numpy as np
 
 from ..errors import FormatError
 from . import hosted
-from .body import Body, Points, write_whole
+from .body import Body, Faces, Points, Skin, write_whole
+from .corners import corners_of, of_vertices
 
 _TYPES = {
     "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1", "short": "i2", "int16": "i2", "ushort": "u2",
@@ -16,32 +22,63 @@ _TYPES = {
     "double": "f8", "float64": "f8",
 }  # fmt: skip
 _ORDERS = {"binary_little_endian": "<", "binary_big_endian": ">"}
+_TEXTURES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"))
+_COLORS = ("red", "green", "blue", "alpha")
+
+
+@dataclass(frozen=True)
+class _Property:
+    name: str
+    kind: str  # numpy's
+    count: str = ""  # of a list that of its length
+
+
+@dataclass(frozen=True)
+class _Element:
+    name: str
+    count: int
+    properties: list[_Property]
 
 
 @dataclass(frozen=True)
 class _Header:
     kind: str
     end: int
-    first: str  # name of the first element
-    count: int
-    properties: list[tuple[str, str]]  # of that element: name and numpy's type
+    vertices: _Element
+    second: _Element  # faces, mostly
 
 
 def read(path: Path) -> Body:
     """Vertices must come first, as they do in all files that are known."""
     contents = path.read_bytes()
     header = _header(path, contents)
-    own = _ascii(contents, header) if header.kind == "ascii" else _table(contents, header)
-    positions = np.stack([np.asarray(own[axis], dtype=float) for axis in "xyz"], axis=1)
+    table = _ascii(contents, header) if header.kind == "ascii" else _table(contents, header)
+    positions = _columns(table, tuple("xyz"))
     points, faces = hosted.geometry(path)
     if len(points) != len(positions) or not np.allclose(points, positions, rtol=1e-6, atol=0):
         raise FormatError(f"'{path}' is written in a way that meshmark does not know. Save it anew, and try again.")
+    names = [one.name for one in header.vertices.properties]
+    uv = next((pair for pair in _TEXTURES if set(pair) <= set(names)), None)
+    rgb = tuple(name for name in _COLORS if name in names)
+    full = _full(header, "red") if set(_COLORS[:3]) <= set(rgb) else 0
+    corners = None if uv else _Corners.read(contents, header, faces)
 
-    def write(out: Path, moved: Points) -> None:
+    def write(out: Path, moved: Points, skin: Skin) -> None:
+        columns = {"xyz"[axis]: moved[:, axis] for axis in range(3)}
+        if uv and skin.texture is not None:
+            columns |= zip(uv, of_vertices(faces, skin.texture, _columns(table, uv)).T, strict=True)
+        if full and skin.colors is not None:
+            shown = of_vertices(faces, skin.colors, _rgba(table, rgb, full)) * full
+            columns |= zip(rgb, shown.T if full == 1 else np.round(shown).T, strict=False)
         rest = _written_ascii if header.kind == "ascii" else _written_table
-        write_whole(out, contents[: header.end] + rest(contents, header, moved))
+        written = bytearray(contents[: header.end] + rest(contents, header, table, columns))
+        if corners and skin.texture is not None:
+            written[len(written) - len(contents) + corners.begin :] = corners.written(contents, skin.texture)
+        write_whole(out, bytes(written))
 
-    return Body(points, faces, "mm", write)
+    texture = _columns(table, uv)[faces] if uv else corners.texture if corners else None
+    colors = _rgba(table, rgb, full)[faces] if full else None
+    return Body(points, faces, "mm", write, Skin(texture, colors, corners.picture if corners else None))
 
 
 def _header(path: Path, contents: bytes) -> _Header:
@@ -54,39 +91,148 @@ def _header(path: Path, contents: bytes) -> _Header:
         if words[:1] == ["format"]:
             kind = words[1]
         elif words[:1] == ["element"]:
-            elements.append((words[1], int(words[2]), []))
+            elements.append(_Element(words[1], int(words[2]), []))
+        elif words[:2] == ["property", "list"] and elements:
+            elements[-1].properties.append(_Property(words[4], _TYPES[words[3]], _TYPES[words[2]]))
         elif words[:1] == ["property"] and elements:
-            elements[-1][2].append((words[-1], _TYPES.get(words[1], "list")))
-    name, count, properties = elements[0] if elements else ("", 0, [])
-    if name != "vertex" or "list" in dict(properties).values() or not {"x", "y", "z"} <= dict(properties).keys():
+            elements[-1].properties.append(_Property(words[2], _TYPES[words[1]]))
+    vertices, second, *_ = [*elements, *[_Element("", 0, [])] * 2]
+    names = {one.name for one in vertices.properties}
+    if vertices.name != "vertex" or any(one.count for one in vertices.properties) or not {"x", "y", "z"} <= names:
         raise FormatError(f"'{path}' does not begin with plain vertices. Save it anew, and try again.")
-    return _Header(kind, end, name, count, properties)
+    return _Header(kind, end, vertices, second)
+
+
+def _columns(table: np.ndarray, names: tuple[str, ...]) -> Points:
+    return np.stack([np.asarray(table[name], dtype=float) for name in names], axis=1)
+
+
+def _full(header: _Header, name: str) -> float:
+    """What a colour's greatest value is."""
+    kind = np.dtype(next(one.kind for one in header.vertices.properties if one.name == name))
+    return float(np.iinfo(kind).max) if kind.kind in "iu" else 1
+
+
+def _rgba(table: np.ndarray, names: tuple[str, ...], full: float) -> Points:
+    """Opaque where there is no alpha."""
+    colors = _columns(table, names) / full
+    return np.column_stack([colors, np.ones((len(colors), 4 - len(names)))])
 
 
 def _table(contents: bytes, header: _Header) -> np.ndarray:
-    rows = np.dtype([(name, _ORDERS[header.kind] + kind) for name, kind in header.properties])
-    return np.frombuffer(contents, rows, header.count, header.end)
+    rows = np.dtype([(one.name, _ORDERS[header.kind] + one.kind) for one in header.vertices.properties])
+    return np.frombuffer(contents, rows, header.vertices.count, header.end)
 
 
-def _written_table(contents: bytes, header: _Header, moved: Points) -> bytes:
-    table = _table(contents, header).copy()
-    for axis, name in enumerate("xyz"):
-        table[name] = moved[:, axis]
+def _written_table(contents: bytes, header: _Header, table: np.ndarray, columns: dict[str, np.ndarray]) -> bytes:
+    table = table.copy()
+    for name, values in columns.items():
+        table[name] = values
     return table.tobytes() + contents[header.end + table.nbytes :]
 
 
 def _ascii(contents: bytes, header: _Header) -> dict[str, list[bytes]]:
-    lines = contents[header.end :].split(b"\n", header.count)[: header.count]
+    lines = contents[header.end :].split(b"\n", header.vertices.count)[: header.vertices.count]
     columns = list(zip(*(line.split() for line in lines), strict=False))
-    return {name: list(column) for (name, _), column in zip(header.properties, columns, strict=False)}
+    return {one.name: list(column) for one, column in zip(header.vertices.properties, columns, strict=False)}
 
 
-def _written_ascii(contents: bytes, header: _Header, moved: Points) -> bytes:
-    *lines, rest = contents[header.end :].split(b"\n", header.count)
-    columns = [[name for name, _ in header.properties].index(axis) for axis in "xyz"]
-    for number, point in enumerate(moved):
-        words = lines[number].split()
-        for column, value in zip(columns, point, strict=True):
-            words[column] = f"{value:.9g}".encode()
-        lines[number] = b" ".join(words)
-    return b"\n".join([*lines, rest])
+def _written_ascii(
+    contents: bytes, header: _Header, table: dict[str, list[bytes]], columns: dict[str, np.ndarray]
+) -> bytes:
+    *lines, rest = contents[header.end :].split(b"\n", header.vertices.count)
+    names = [one.name for one in header.vertices.properties]
+    rows = [line.split() for line in lines]
+    for name, values in columns.items():
+        at = names.index(name)
+        for row in np.flatnonzero(np.array(table[name]).astype(float) != values):
+            rows[row][at] = f"{values[row]:.9g}".encode()
+    return b"\n".join([*(b" ".join(row) for row in rows), rest])
+
+
+@dataclass(frozen=True)
+class _Corners:
+    """Texture coordinates in the element of faces: where in the file each corner's two numbers stand."""
+
+    begin: int  # of the element
+    spans: list[list[tuple[int, int]]]  # of each corner in the file
+    kind: str  # numpy's; empty for ASCII
+    values: Points
+    corner: np.ndarray  # of each corner of the triangles that in the file
+    picture: np.ndarray | None
+
+    @classmethod
+    def read(cls, contents: bytes, header: _Header, faces: Faces) -> "_Corners | None":
+        """None where faces have none."""
+        kinds = {one.name: one.kind for one in header.second.properties}
+        if header.second.name != "face" or "texcoord" not in kinds:
+            return None
+        order = _ORDERS.get(header.kind, "")
+        begin = header.end + (_table(contents, header).nbytes if order else len(_vertex_lines(contents, header)))
+        polygons, spans, values, pictures = [], [], [], []
+        for row in _rows(contents, header.second, begin, order):
+            polygon = row.get("vertex_indices") or row["vertex_index"]
+            polygons.append([int(value) for value, _ in polygon])
+            texcoord = row["texcoord"]
+            if len(texcoord) != 2 * len(polygon):
+                raise ValueError("a face has not two texture coordinates a corner")
+            for u, v in zip(texcoord[::2], texcoord[1::2], strict=True):
+                values.append((u[0], v[0]))
+                spans.append([u[1], v[1]])
+            pictures += [row["texnumber"][0][0] if "texnumber" in row else 0] * len(polygon)
+        corner = corners_of(polygons, faces)
+        picture = np.array(pictures, dtype=np.int32)[corner[:, 0]] if "texnumber" in kinds else None
+        kind = order + kinds["texcoord"] if order else ""
+        return cls(begin, spans, kind, np.array(values, dtype=float).reshape(-1, 2), corner, picture)
+
+    @property
+    def texture(self) -> Points:
+        """Of the triangles' corners."""
+        return self.values[self.corner]
+
+    def written(self, contents: bytes, texture: Points) -> bytes:
+        """From the element of faces on."""
+        new = self.values.copy()
+        new[self.corner] = texture
+        pieces, end = [], self.begin
+        for row, axis in zip(*np.nonzero(new != self.values), strict=True):
+            begin, after = self.spans[row][axis]
+            value = new[row, axis]
+            text = np.array(value).astype(self.kind).tobytes() if self.kind else f"{value:.9g}".encode()
+            pieces += [contents[end:begin], text]
+            end = after
+        return b"".join([*pieces, contents[end:]])
+
+
+def _vertex_lines(contents: bytes, header: _Header) -> bytes:
+    rest = contents[header.end :]
+    return rest[: len(rest) - len(rest.split(b"\n", header.vertices.count)[-1])]
+
+
+_Values = list[tuple[float, tuple[int, int]]]  # and where they stand
+_WORD = re.compile(rb"\S+")
+
+
+def _rows(contents: bytes, element: _Element, begin: int, order: str) -> Iterator[dict[str, _Values]]:
+    """The rows of an element that has lists, by the name of the property."""
+    take = _binary if order else _words
+    for _ in range(element.count):
+        row = {}
+        for one in element.properties:
+            count = 1
+            if one.count:
+                ((count, (_, begin)),) = take(contents, begin, order + one.count, 1)
+            row[one.name] = take(contents, begin, order + one.kind, int(count))
+            begin = row[one.name][-1][1][1] if row[one.name] else begin
+        yield row
+
+
+def _binary(contents: bytes, begin: int, kind: str, count: int) -> _Values:
+    values = np.frombuffer(contents, kind, count, begin)
+    starts = range(begin, begin + values.nbytes, values.itemsize)
+    return [(value, (start, start + values.itemsize)) for value, start in zip(values.tolist(), starts, strict=True)]
+
+
+def _words(contents: bytes, begin: int, kind: str, count: int) -> _Values:
+    found = itertools.islice(_WORD.finditer(contents, begin), count)
+    return [(float(word.group()), word.span()) for word in found]

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import FormatError
-from .body import Body, Points, weld, write_whole
+from .body import Body, Points, Skin, weld, write_whole
 
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER = 84
@@ -34,7 +34,7 @@ def _binary(contents: bytes, count: int) -> Body:
     triangles = np.frombuffer(contents, _TRIANGLE, count, _HEADER)
     points, number = weld(triangles["corners"].reshape(-1, 3).astype(float))
 
-    def write(out: Path, moved: Points) -> None:
+    def write(out: Path, moved: Points, skin: Skin) -> None:
         changed = triangles.copy()
         changed["corners"] = moved[number].reshape(-1, 3, 3)
         changed["normal"] = _normals(changed["corners"].astype(float), triangles["normal"])
@@ -51,7 +51,7 @@ def _ascii(path: Path, contents: bytes) -> Body:
     corners = np.array([[match.group(k) for k in (4, 5, 6, 8, 9, 10, 12, 13, 14)] for match in found], dtype="S32")
     points, number = weld(corners.astype(float).reshape(-1, 3))
 
-    def write(out: Path, moved: Points) -> None:
+    def write(out: Path, moved: Points, skin: Skin) -> None:
         placed = moved[number].reshape(-1, 3, 3)
         old = np.array([match.group(2).split() for match in found], dtype="S32").astype(float)
         new = zip(_normals(placed, old), placed, strict=True)

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""3MF: only the coordinates of vertices change; colours, materials, thumbnails and a slicer's settings stay.
+"""3MF: coordinates of vertices and of textures change; colours, materials, pictures and a slicer's settings stay.
 
-3MF Consortium: Core Specification 1.3 (units, build, components), Production Extension (objects in other parts).
+3MF Consortium: Core Specification 1.3 (units, build, components), Production Extension (objects in other parts),
+Materials and Properties Extension 1.2 (texture2dgroup).
 """
 
 import re
@@ -14,7 +15,8 @@ from xml.etree import ElementTree
 import numpy as np
 
 from ..errors import FormatError
-from .body import Body, Points, write_whole
+from .body import Body, Points, Skin, write_whole
+from .threemf_texture import Coordinates
 
 _CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
 _PATH = "{http://schemas.microsoft.com/3dmanufacturing/production/2015/06}path"
@@ -26,9 +28,10 @@ _AXES = [re.compile(rb"(\s%b\s*=\s*)(\"[^\"]*\"|'[^']*')" % axis) for axis in (b
 
 @dataclass(frozen=True)
 class _Object:
-    """An object with a mesh: its first vertex in the order of its part's text, and its geometry."""
+    """An object with a mesh: its first vertex and triangle in the order of its part's text, and its geometry."""
 
     first: int
+    first_triangle: int
     points: Points
     faces: np.ndarray
 
@@ -57,12 +60,13 @@ class _Package:
             raise FormatError(f"'{path}' has no model.")
         self.main = targets[0]
         self.objects = {name: self._objects(root) for name, root in self.roots.items()}
+        self.coordinates = {name: Coordinates(root) for name, root in self.roots.items()}
 
     @staticmethod
     def _objects(root: ElementTree.Element) -> dict[str, ElementTree.Element | _Object]:
         """By id: a mesh, or the element with its components."""
         found: dict[str, ElementTree.Element | _Object] = {}
-        count = 0
+        count, triangles = 0, 0
         for one in root.iter(f"{_CORE}object"):
             mesh = one.find(f"{_CORE}mesh")
             if mesh is None:
@@ -71,9 +75,11 @@ class _Package:
             points = [[float(v.get(axis, "0")) for axis in "xyz"] for v in mesh.iter(f"{_CORE}vertex")]
             faces = [[int(t.get(corner, "0")) for corner in ("v1", "v2", "v3")] for t in mesh.iter(f"{_CORE}triangle")]
             found[one.get("id", "")] = _Object(
-                count, np.array(points, dtype=float).reshape(-1, 3), np.array(faces, dtype=np.int32).reshape(-1, 3)
-            )
+                count, triangles, np.array(points, dtype=float).reshape(-1, 3),
+                np.array(faces, dtype=np.int32).reshape(-1, 3),
+            )  # fmt: skip
             count += len(points)
+            triangles += len(faces)
         return found
 
     def placed(self, part: str, number: str, matrix: np.ndarray) -> Iterator[tuple[str, _Object, np.ndarray]]:
@@ -103,11 +109,28 @@ def read(path: Path) -> Body:
     if not count:
         raise FormatError(f"'{path}' builds nothing.")
 
-    def write(out: Path, moved: Points) -> None:
-        _write(path, out, package, placed, moved)
+    def write(out: Path, moved: Points, skin: Skin) -> None:
+        _write(path, out, package, placed, moved, skin)
 
     unit = main.get("unit", "millimeter")
-    return Body(np.concatenate(points), np.concatenate(faces).astype(np.int32), unit, write)
+    return Body(np.concatenate(points), np.concatenate(faces).astype(np.int32), unit, write, _skin(package, placed))
+
+
+def _skin(package: _Package, placed: list[_Placed]) -> Skin:
+    """The texture of what is placed; groups of coordinates of different parts are different pictures."""
+    groups = [len(one.tables) for one in package.coordinates.values()]
+    first = dict(zip(package.coordinates, np.cumsum([0, *groups]).tolist(), strict=False))
+    textures, pictures = [], []
+    for one in placed:
+        here = slice(one.mesh.first_triangle, one.mesh.first_triangle + len(one.mesh.faces))
+        coordinates = package.coordinates[one.part]
+        textures.append(coordinates.texture[here])
+        group = coordinates.group[here]
+        pictures.append(np.where(group < 0, -1, group + first[one.part]))
+    picture = np.concatenate(pictures).astype(np.int32)
+    if picture.max(initial=-1) < 0:
+        return Skin()
+    return Skin(texture=np.concatenate(textures), picture=picture)
 
 
 def _matrix(element: ElementTree.Element) -> np.ndarray:
@@ -118,7 +141,7 @@ def _matrix(element: ElementTree.Element) -> np.ndarray:
     return matrix
 
 
-def _write(path: Path, out: Path, package: _Package, placed: list[_Placed], moved: Points) -> None:
+def _write(path: Path, out: Path, package: _Package, placed: list[_Placed], moved: Points, skin: Skin) -> None:
     if len({(one.part, one.mesh.first) for one in placed}) < len(placed):
         raise FormatError(f"'{path}' builds one object several times. Make the copies real ones first, or mark one.")
     texts = dict(package.texts)
@@ -130,6 +153,15 @@ def _write(path: Path, out: Path, package: _Package, placed: list[_Placed], move
             local[one.mesh.first] = np.linalg.solve(one.matrix[:3, :3].T, points.T).T
         new = {first + number: point for first, points in local.items() for number, point in enumerate(points)}
         texts[part] = _rewritten(texts[part], new)
+    if skin.texture is not None:
+        ends = np.cumsum([len(one.mesh.faces) for one in placed])
+        of_placed = np.split(skin.texture, ends[:-1])
+        for part, coordinates in package.coordinates.items():
+            texture = coordinates.texture.copy()
+            for one, new in zip(placed, of_placed, strict=True):
+                if one.part == part:
+                    texture[one.mesh.first_triangle : one.mesh.first_triangle + len(new)] = new
+            texts[part] = coordinates.written(texts[part], texture)
     part_file = out.with_name(f".{out.name}.zip.part")
     try:
         with zipfile.ZipFile(path) as old, zipfile.ZipFile(part_file, "w") as archive:

@@ -5,8 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from ..formats import Body, weld
 from .signature import signature
@@ -30,6 +28,9 @@ class Piece:
 
 def pieces(body: Body) -> list[Piece]:
     """The whole first, then what it consists of where that is more than one piece."""
+    from scipy.sparse import coo_array  # takes longer to load than most commands need
+    from scipy.sparse.csgraph import connected_components
+
     points, number = weld(body.points)
     faces = number[body.faces].astype(np.int32)
     whole = Piece("the whole file", points, faces)

@@ -8,8 +8,6 @@ polyhedral mass properties (1996), has the integrals; open surfaces are closed b
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from ..errors import FormatError
 from ..formats import Body, weld
@@ -81,6 +79,9 @@ def _solid(corners: Array, origin: Array, area: float) -> tuple[float, Array, Ar
 
 def closed(points: Array, faces: Faces) -> Array:
     """The corners of the triangles, and of fans that close every loop of the border to its middle."""
+    from scipy.sparse import coo_array  # takes longer to load than most commands need
+    from scipy.sparse.csgraph import connected_components
+
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).astype(np.int64)
     count = len(points)
     there, back = edges[:, 0] * count + edges[:, 1], edges[:, 1] * count + edges[:, 0]
