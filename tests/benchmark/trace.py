@@ -127,6 +127,7 @@ ATTACKS: dict[str, Attack] = {
     "crop 30 %, with the original": filtered("Crop", 0.3),
 }
 WITH_ORIGINAL = "crop 30 %, with the original"
+HARMLESS = ("similarity", "reorder", "STL", "GLB", "mirrored")  # after which "nobody" can be said of coarse models too
 
 
 def main(
@@ -164,8 +165,8 @@ def main(
                 counts[attack][size_of(model.vertices)][verdict] += 1
                 if verdict != "right":
                     console.print(f"{attack}, {model.name} ({model.vertices} vertices): {verdict}")
-        harmless = [name for name in attacks if name not in (WITH_ORIGINAL, "isosurface .5 %")]  # for open meshes too
-        for number in range(strangers):
+        harmless = [name for name in HARMLESS if name in attacks]
+        for number in range(strangers if harmless else 0):
             unmarked = files[number % len(files)]
             copy, *_ = theirs.copies[number % len(theirs.copies)]
             for kind, source in (("unmarked", unmarked), ("another shop's", copy)):

@@ -12,6 +12,7 @@ from bodies import body, write_bodies
 from dask.distributed import LocalCluster
 from meshmark import plugin
 from meshmark.catalog import Ledger, Order, make_copies
+from meshmark.catalog.ledger import Model
 from meshmark.catalog.recipients import Recipient
 from meshmark.command.app import main
 from meshmark.formats import Body, read_body
@@ -19,6 +20,7 @@ from meshmark.settings import Settings
 from meshmark.shape.pieces import pieces
 from meshmark.shape.signature import body_signature, difference, signature
 from meshmark.tracing import Answer, Trace, trace
+from meshmark.tracing.likeness import Likeness
 
 KEY = "correct horse battery staple"
 
@@ -192,3 +194,13 @@ def test_pieces_are_the_large_ones() -> None:
         ("piece 2 of 3", 12),
     ]
     assert found[1].points.max() == 5
+
+
+def test_on_a_coarse_model_a_mark_may_be_lost_by_little() -> None:
+    def model(faces: int) -> Model:
+        return Model(1, "a.stl", "", 0, faces // 2, faces, "mm", ())
+
+    touched, little = Likeness(model(3000), 0.002, 0.002, 1), Likeness(model(3000), 0.01, 0.01, 0.9)
+    assert touched.intact
+    assert not little.intact
+    assert Likeness(model(30000), 0.01, 0.01, 0.9).intact
