@@ -21,10 +21,8 @@ QString info()
            "where a bit would not read back.<br>"
            "Keep the key secret, and note the recipe that the log ends with: detection needs it.<br>" +
            about_carrier_parameters() +
-           "See:<br><i>Ming Luo, Adrian G. Bors</i><br><b>\"Surface-preserving robust watermarking of 3-D shapes\"</b><br>"
-           "IEEE Transactions on Image Processing 20(10), 2011<br>"
-           "<i>Jae-Won Cho, R&eacute;my Prost, Ho-Youl Jung</i><br><b>\"An oblivious watermarking for 3-D polygonal meshes "
-           "using distribution of vertex norms\"</b><br>IEEE Transactions on Signal Processing 55(1), 2007";
+           "See <i>M. Luo, A. G. Bors</i>, Surface-preserving robust watermarking of 3-D shapes, IEEE Trans. Image "
+           "Processing, 2011; <i>J.-W. Cho, R. Prost, H.-Y. Jung</i>, IEEE Trans. Signal Processing, 2007.";
 }
 
 RichParameterList parameters(const MeshDocument&)
