@@ -47,7 +47,8 @@ Json to_json(const vcg_ext::PartReport& part)
     if (part.p_value)
         json["p_value"] = *part.p_value;
     json["p_message"] = part.p_message;
-    json["registration"] = to_json(part.registration);
+    if (part.registration)
+        json["registration"] = to_json(*part.registration);
     json["verdict"] = part.verdict;
     return json;
 }

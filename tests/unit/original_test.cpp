@@ -159,7 +159,7 @@ TEST(WithOriginal, FindsThePartThatIsACopy)
     ASSERT_GE(found.parts.size(), 2U);
     int copies = 0;
     for (const PartReport& part : found.parts)
-        copies += part.registration.found;
+        copies += part.registration->found;
     EXPECT_EQ(copies, 1);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/load.h"
+#include "support/shapes.h"
 #include "support/topology.h"
 #include "vcg_ext/attack/attack.h"
 #include "vcg_ext/base/error.h"
@@ -400,6 +401,61 @@ TEST(Embed, WarnsOfAMarkThatItErases)
         const EmbedReport second = embed(surface, key_from_text("customer"), options_for(Method::LM, Statistic::Mean));
         EXPECT_EQ(warned(second), first != Method::Spectral) << name(first);
     }
+}
+
+void append(Surface& surface, const Surface& piece, const Eigen::Affine3d& pose, bool inside_out = false)
+{
+    const int before = static_cast<int>(surface.points.size());
+    for (const Point& p : piece.points)
+        surface.points.emplace_back(pose * p);
+    for (const auto& [a, b, c] : piece.triangles)
+        surface.triangles.push_back(inside_out ? Triangle{before + a, before + c, before + b}
+                                               : Triangle{before + a, before + b, before + c});
+}
+
+/// What detect() says of a mesh that holds a marked fandisk and other pieces, the marked one the largest.
+void expect_found_in_a_piece(Method method, const std::function<void(Surface&, const Surface& marked)>& add)
+{
+    const EmbedOptions options = options_for(method, Statistic::Mean);
+    Surface marked = load("fandisk.off");
+    embed(marked, test_key(), options);
+    Surface mesh = marked;
+    add(mesh, marked);
+    const DetectReport found = read(mesh, options);
+    EXPECT_EQ(found.finding, Verdict::Present) << found.verdict;
+    EXPECT_EQ(found.verdict.substr(0, 9), "part 1 of") << found.verdict;
+    ASSERT_FALSE(found.parts.empty());
+    EXPECT_LT(*found.parts.front().p_value, 1e-6);
+    EXPECT_EQ(*found.p_value, *found.parts.front().p_value);
+    if (method == Method::LM) { // the others take long where they find nothing
+        EXPECT_GT(*read(mesh, options, key_from_text("another")).p_value, 1e-6);
+    }
+}
+
+TEST(Detect, ReadsACopyOnAPlate)
+{
+    for (const Method method : {Method::LM, Method::Spectral})
+        expect_found_in_a_piece(method, [](Surface& plate, const Surface& marked) {
+            const double size = bounding_diagonal(marked);
+            for (int k = 1; k < 4; ++k)
+                append(plate, marked,
+                       Eigen::Translation3d(k * size, 0, 0) * Eigen::AngleAxisd(k, Point(1, 2, 3).normalized()) *
+                           Eigen::UniformScaling<double>(1 - 0.1 * k));
+        });
+}
+
+TEST(Detect, ReadsAHollowedShellAndABodyOnAPedestal)
+{
+    for (const Method method : {Method::LM, Method::Waves})
+        expect_found_in_a_piece(method, [](Surface& mesh, const Surface& marked) {
+            const Point middle = bounding_box(marked).center();
+            append(mesh, marked,
+                   Eigen::Translation3d(middle) * Eigen::UniformScaling<double>(0.8) * Eigen::Translation3d(-middle),
+                   true);
+            const double size = bounding_diagonal(marked);
+            append(mesh, shapes::box(0.3 * size, 0.3 * size, 0.3 * size),
+                   Eigen::Affine3d(Eigen::Translation3d(middle - Point(0.1, 0.1, 0.9) * size)));
+        });
 }
 
 TEST(SphereWeights, KeepTheOrderOfTable52)

@@ -9,6 +9,7 @@
 #include "../payload/code.h"
 #include "../payload/evidence.h"
 #include "judge.h"
+#include "pieces.h"
 #include "secrets.h"
 
 #include <algorithm>
@@ -313,28 +314,60 @@ DetectReport detect_by(const LayerReader& read, const std::vector<int>& site_of_
     return result;
 }
 
-DetectReport detect(const Surface& surface, const Key& key, const DetectOptions& options, const Progress& progress)
+namespace {
+
+/// \param body of the surface that is read
+DetectReport detect_body(const Body& body, const Key& key, const DetectOptions& options, double share,
+                         const Progress& progress)
 {
-    options.carriers.check();
-    Stopwatch watch;
-    report(progress, 0, "Finding carriers");
-    const Body body = body_of(surface);
     std::map<Method, MarkFrame> frames; // found once, whatever number of carriers is tried
     const LayerReader read = [&](const MethodRow& method, const Plan& plan) {
         if (frames.find(method.method) == frames.end())
             frames.emplace(method.method, method.find_frame(body.surface, plan));
         return method.read(body.surface, plan, frames.at(method.method));
     };
-    DetectReport result = detect_by(read, body.site_of_vertex, 1, key, options, progress);
+    DetectReport result = detect_by(read, body.site_of_vertex, share, key, options, progress);
     result.pieces = body.pieces;
     result.loose_pieces = body.loose_pieces;
     if (const std::string loose = about_loose_pieces(body); !loose.empty())
         result.warnings.push_back(loose);
-    if (const int parts = body.pieces - body.loose_pieces; parts > 1 && result.finding != Verdict::Present)
-        result.warnings.push_back("The mesh is " + std::to_string(parts) +
-                                  " separate pieces, read as one body. Where some were added or taken away, split it "
-                                  "into its connected components and look into each.");
+    return result;
+}
+
+} // namespace
+
+DetectReport detect_whole(const Surface& surface, const Key& key, const DetectOptions& options, double share,
+                          const Progress& progress)
+{
+    options.carriers.check();
+    Stopwatch watch;
+    report(progress, 0, "Finding carriers");
+    DetectReport result = detect_body(body_of(surface), key, options, share, progress);
     result.seconds["detection"] = watch.lap();
+    return result;
+}
+
+DetectReport detect(const Surface& surface, const Key& key, const DetectOptions& options, const Progress& progress)
+{
+    options.carriers.check();
+    Stopwatch watch;
+    report(progress, 0, "Finding carriers");
+    const Body body = body_of(surface);
+    const std::vector<Part> pieces =
+        body.pieces - body.loose_pieces > 1 ? pieces_to_look_at(body.surface) : std::vector<Part>();
+    DetectReport result =
+        detect_body(body, key, options, share_of_whole(pieces), within(progress, 0, pieces.empty() ? 100 : 30));
+    const PieceReader read = [&](const Surface& piece, double share, const Progress& quietly) {
+        return detect_whole(piece, key, options, share, quietly);
+    };
+    if (!pieces.empty() && result.finding != Verdict::Present) {
+        const DetectReport whole = result;
+        look_at_pieces(read, pieces, result, within(progress, 30, 100));
+        result.pieces = whole.pieces;
+        result.loose_pieces = whole.loose_pieces;
+    }
+    result.seconds["detection"] = watch.lap();
+    report(progress, 100, "Done");
     return result;
 }
 

@@ -21,8 +21,16 @@ using LayerReader = std::function<Readings(const MethodRow& method, const Plan& 
 
 /// Reads a message with the key alone. Same input, same answer: at any number of threads, on any machine.
 ///
+/// First the mesh as a whole; where that carries nothing and has several pieces, as a plate of copies or a model on a
+/// pedestal, each piece by itself too (pieces.h).
+///
 /// \throw Error on input that cannot carry a mark: no faces, coordinates that are not finite, no range of values.
 [[nodiscard]] DetectReport detect(const Surface& surface, const Key& key, const DetectOptions& options,
                                   const Progress& progress = {});
+
+/// The same of the whole alone.
+/// \param share see detect_by()
+[[nodiscard]] DetectReport detect_whole(const Surface& surface, const Key& key, const DetectOptions& options,
+                                        double share = 1, const Progress& progress = {});
 
 } // namespace vcg_ext

@@ -77,10 +77,10 @@ double self_check(const Surface& marked, const Key& key, const EmbedOptions& opt
     for (const Method layer : result.layers) {
         DetectOptions blind{options.carriers, {}};
         blind.carriers.method = layer;
-        if (detect(marked, key, blind, quietly).bits == result.bits)
+        if (detect_whole(marked, key, blind, 1, quietly).bits == result.bits)
             continue;
         blind.expected = {options.message};
-        const double ratio = *detect(marked, key, blind, quietly).detection_ratio;
+        const double ratio = *detect_whole(marked, key, blind, 1, quietly).detection_ratio;
         if (ratio == 1)
             result.warnings.emplace_back(
                 "The body is so symmetric that with this key the message can only be read by who knows what to expect. "

@@ -5,10 +5,10 @@
 #include "../base/stopwatch.h"
 #include "../base/text.h"
 #include "../geometry/body.h"
-#include "../geometry/parts.h"
 #include "../method/methods.h"
 #include "../payload/code.h"
 #include "detect.h"
+#include "pieces.h"
 
 #include <Eigen/SVD>
 #include <cmath>
@@ -32,13 +32,6 @@ RegistrationReport told(const Registration& registration)
     result.residual = registration.residual;
     result.by = registration.by;
     return result;
-}
-
-std::string percent(double part)
-{
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.0f %%", 100 * part);
-    return buffer;
 }
 
 std::string no_copy(const Registration& registration)
@@ -121,40 +114,6 @@ private:
     Registrar registrar_;
 };
 
-constexpr int most_parts = 16;
-constexpr double least_part = 0.01; ///< of the area
-
-/// Looks at the mesh's pieces, each with an equal share of half of the doubt; `result` becomes the best of them where
-/// that finds something.
-void look_at_parts(Examination& examine, const std::vector<Part>& parts, DetectReport& result, const Progress& progress)
-{
-    const int count = static_cast<int>(parts.size());
-    std::vector<PartReport> reports;
-    for (int i = 0; i < count; ++i) {
-        DetectReport one =
-            examine(parts[i].surface, {}, 0.5 / count, within(progress, 100 * i / count, 100 * (i + 1) / count));
-        PartReport report;
-        report.vertices = static_cast<int>(parts[i].surface.points.size());
-        report.area_share = parts[i].area_share;
-        report.registration = *one.registration;
-        report.p_value = one.p_value;
-        report.p_message = one.p_message;
-        report.verdict = one.verdict;
-        reports.push_back(report);
-        const auto loudness = [](const DetectReport& r) { return std::min(r.p_value.value_or(1), r.p_message); };
-        const bool better =
-            one.registration->found && (!result.registration->found || loudness(one) < loudness(result));
-        if (!better)
-            continue;
-        one.verdict = "part " + std::to_string(i + 1) + " of " + std::to_string(count) + " (" +
-                      percent(parts[i].area_share) + " of the area): " + one.verdict;
-        for (const auto& [phase, seconds] : result.seconds)
-            one.seconds[phase] += seconds;
-        result = std::move(one);
-    }
-    result.parts = std::move(reports);
-}
-
 } // namespace
 
 DetectReport detect_with_original(const Surface& surface, const Surface& original, const Key& key,
@@ -166,12 +125,14 @@ DetectReport detect_with_original(const Surface& surface, const Surface& origina
     const Body unmarked = body_of(original, "original");
     refuse_marked(original, key, options);
     Examination examine(unmarked.surface, key, options);
-    const std::vector<Part> parts = connected_parts(welded.surface, most_parts, least_part);
-    const bool several = parts.size() > 1;
-    DetectReport result =
-        examine(welded.surface, welded.site_of_vertex, several ? 0.5 : 1, within(progress, 5, several ? 40 : 100));
-    if (several && result.finding != Verdict::Present)
-        look_at_parts(examine, parts, result, within(progress, 40, 100));
+    const std::vector<Part> pieces = pieces_to_look_at(welded.surface);
+    DetectReport result = examine(welded.surface, welded.site_of_vertex, share_of_whole(pieces),
+                                  within(progress, 5, pieces.empty() ? 100 : 40));
+    const PieceReader read = [&](const Surface& piece, double share, const Progress& quietly) {
+        return examine(piece, {}, share, quietly);
+    };
+    if (!pieces.empty() && result.finding != Verdict::Present)
+        look_at_pieces(read, pieces, result, within(progress, 40, 100));
     report(progress, 100, "Done");
     return result;
 }

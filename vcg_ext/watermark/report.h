@@ -72,8 +72,8 @@ struct RegistrationReport {
 /// A connected piece of the mesh that was looked at by itself.
 struct PartReport {
     int vertices = 0;
-    double area_share = 0; ///< of the mesh's area
-    RegistrationReport registration;
+    double area_share = 0;                          ///< of the mesh's area
+    std::optional<RegistrationReport> registration; ///< with the original at hand
     std::optional<double> p_value; ///< the share of the doubt that the part has is taken off, as of p_message
     double p_message = 1;
     std::string verdict;
@@ -110,7 +110,7 @@ struct DetectReport {
     std::map<std::string, double> seconds;
     std::vector<std::string> warnings;
     std::optional<RegistrationReport> registration; ///< with the original at hand
-    std::vector<PartReport> parts; ///< likewise, where the mesh as a whole gave nothing and has several pieces
+    std::vector<PartReport> parts;                  ///< where the mesh as a whole gave nothing and has several pieces
     /// Spectral: whether axis 1 and axis 2 were read along (+) or against (-) the body's third moments, as "++" or "-+".
     std::string orientation;
     /// Per vertex the number of the carrier that it is in, or -1; of the first layer whose carriers are sets of vertices,
