@@ -94,6 +94,23 @@ TEST(Demodulation, InformationIsThatOfTheNormalEquations)
     EXPECT_NEAR(read[1].information / (samples * 0.03 * 0.03 / 2), 1.08, 0.15);
 }
 
+TEST(Demodulation, SaysNothingOfFewerSamplesThanUnknowns)
+{
+    const Case given = make_case(5, 1e-3, 1e-4);
+    for (const int few : {0, 1, waves + 4}) {
+        ResidualField field = given.field;
+        field.places.resize(few);
+        field.kind.resize(few);
+        field.roughness.resize(few);
+        field.residual.conservativeResize(few);
+        field.nuisance.conservativeResize(few, Eigen::NoChange);
+        const auto read = demodulate(field, given.columns.topRows(few), given.plan.vectors, given.assumptions);
+        ASSERT_EQ(read.size(), given.assumptions.size());
+        for (const Demodulated& one : read)
+            EXPECT_EQ(one.soft, std::vector<double>(waves, 0)) << few;
+    }
+}
+
 TEST(Demodulation, IsNotMovedByNuisance)
 {
     Case given = make_case(3, 1e-3, 1e-4);

@@ -398,18 +398,24 @@ private:
 std::vector<Demodulated> demodulate(const ResidualField& field, const Rows& waves, const Points& vectors,
                                     const std::vector<WaveAssumption>& assumptions)
 {
+    std::vector<Demodulated> result(assumptions.size());
+    if (field.count() <= waves.cols() + field.nuisance.cols()) {
+        for (Demodulated& one : result) {
+            one.soft.assign(static_cast<std::size_t>(waves.cols()), 0);
+            one.weight = 1 / static_cast<double>(result.size());
+        }
+        return result;
+    }
     Fit fit(field, waves, assumptions);
     fit.run(vectors);
-    std::vector<Demodulated> result;
     std::vector<double> evidence;
     for (std::size_t i = 0; i < assumptions.size(); ++i) {
         const Solution solution = fit.solution(i);
-        Demodulated one;
+        Demodulated& one = result[i];
         for (Eigen::Index k = 0; k < solution.bits.size(); ++k)
             one.soft.push_back(std::clamp(2 * solution.bits[k] / (1 - solution.shrinkage[k]), -most_soft, most_soft));
         one.information = solution.information;
         evidence.push_back(solution.log_evidence);
-        result.push_back(std::move(one));
     }
     const double most = *std::max_element(evidence.begin(), evidence.end());
     double sum = 0;

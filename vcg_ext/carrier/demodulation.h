@@ -43,6 +43,8 @@ struct Demodulated {
 /// and divides the likelihood. Nothing looks at the mask, and given all that comes out the signs of `soft` against bits
 /// under a secret mask are fair coins: whatever is chosen or weighted here costs a probability nothing.
 ///
+/// Fewer samples than unknowns say nothing: soft values of 0.
+///
 /// \param waves   a row a sample, a column a wave: what amplitude 1 does there
 /// \param vectors of the waves
 [[nodiscard]] std::vector<Demodulated> demodulate(const ResidualField& field, const Rows& waves, const Points& vectors,
