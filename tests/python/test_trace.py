@@ -200,7 +200,7 @@ def test_on_a_coarse_model_a_mark_may_be_lost_by_little() -> None:
     def model(faces: int) -> Model:
         return Model(1, "a.stl", "", 0, faces // 2, faces, "mm", ())
 
-    touched, little = Likeness(model(3000), 0.002, 0.002, 1), Likeness(model(3000), 0.01, 0.01, 0.9)
+    touched, little = Likeness(model(3000), 2e-4, 1e-4, 1), Likeness(model(3000), 2e-4, 3e-4, 1)
     assert touched.intact
     assert not little.intact
     assert Likeness(model(30000), 0.01, 0.01, 0.9).intact

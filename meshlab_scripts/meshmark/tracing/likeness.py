@@ -17,7 +17,7 @@ COARSER = 0.25  # of the model's faces; what has fewer was simplified beyond wha
 ROUGHER, SMOOTHER = 0.02, -0.03  # of the area; noise and smoothing that erase marks change it by more
 # A mark on a coarse model outlives little: only where that is as it was, but for place and size, would one be read.
 FINE = 8000  # faces
-UNTOUCHED = 0.003  # of the moments, of the area, and of the number of faces
+STILL, EVEN = 4e-4, 1.5e-4  # of moments and area: a mark changes less, noise of .1 % and 9 bits more
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class Likeness:
     def intact(self) -> bool:
         """It is the model, and a mark in it would be read."""
         if self.model.faces < FINE:
-            return max(self.difference, abs(self.roughening), abs(self.faces - 1)) < UNTOUCHED
+            return self.difference < STILL and abs(self.roughening) < EVEN and abs(self.faces - 1) < 1e-3
         return self.difference < SAME and SMOOTHER < self.roughening < ROUGHER and self.faces > COARSER
 
 
