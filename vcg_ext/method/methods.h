@@ -49,10 +49,6 @@ struct MethodRow {
     /// What the carriers of a copy say, given find_copy(). Null: what read() says of it where it is laid on the original.
     Readings (*read_copy)(const Copy& copy, const Plan& plan, const MarkFrame& frame);
 
-    /// Whether a mark of some key, by this method or one that has the same carriers, seems to be there: known by the
-    /// surface alone. Null: that cannot be known.
-    bool (*looks_marked)(const Surface& surface);
-
     /// Writes the coded bits, as many as carriers. `options.strength` is in range.
     /// \throw DoesNotFit where the mesh cannot carry them
     Marking (*embed)(const Cover& cover, const Plan& plan, const Bits& coded, const PlacementOptions& options,

@@ -168,6 +168,9 @@ public:
 
     Proposal place(const std::vector<double>& targets) { return placement_.place(frame_.centre, targets); }
 
+    /// Whether the cover seems to carry a mark of some key.
+    [[nodiscard]] bool looks_marked() const { return find_comb(norms_, frame_.minimum, frame_.maximum).found(); }
+
 private:
     const Cover& cover_;
     const Plan& plan_;
@@ -194,12 +197,6 @@ MarkFrame find_norms(const Surface& surface, const Plan& /*plan*/)
     return shell_frame(surface.points, solid_topology(surface));
 }
 
-bool norms_look_marked(const Surface& surface)
-{
-    const ShellFrame frame = shell_frame(surface.points, solid_topology(surface));
-    return find_comb(norms(surface.points, frame.centre), frame.minimum, frame.maximum).found();
-}
-
 Readings read_norms(const Surface& surface, const Plan& plan, const MarkFrame& frame)
 {
     return read_carriers(shells(surface.points, std::get<ShellFrame>(frame), plan.trim, plan.options.bits), plan);
@@ -210,7 +207,13 @@ Marking embed_norms(const Cover& cover, const Plan& plan, const Bits& coded, con
                     const Progress& progress)
 {
     Norm norm(cover, placement, plan, options.sphere);
-    return embed_scalar(norm, cover, plan, coded, options, progress);
+    Marking marking = embed_scalar(norm, cover, plan, coded, options, progress);
+    if (marking.rounds > 0 && norm.looks_marked()) // in no round nothing moved: it is this very mark
+        marking.warnings.emplace_back(
+            "The mesh seems to carry a mark of this kind already, and this one erases it. Where both are wanted, take "
+            "the unmarked mesh and two methods that leave each other alone, as Waves or Spectral do with those of vertex "
+            "norms.");
+    return marking;
 }
 
 template Marking embed_norms<Radial::Sphere>(const Cover&, const Plan&, const Bits&, const PlacementOptions&,

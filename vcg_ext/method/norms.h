@@ -10,7 +10,6 @@ namespace vcg_ext {
 [[nodiscard]] Plan plan_norms(const Key& key, const CarrierOptions& options);
 [[nodiscard]] MarkFrame find_norms(const Surface& surface, const Plan& plan);
 [[nodiscard]] Readings read_norms(const Surface& surface, const Plan& plan, const MarkFrame& frame);
-[[nodiscard]] bool norms_look_marked(const Surface& surface);
 
 /// How a vertex gets to its sphere.
 enum class Radial {

@@ -217,8 +217,6 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     result.carriers = options.carriers.bits;
     result.pieces = body.pieces;
     result.loose_pieces = body.loose_pieces;
-    const auto looks_marked = row_of(result.method).looks_marked;
-    const bool marked_before = looks_marked && looks_marked(body.surface);
     const Cover cover(body.surface, held_sites(body, options.held));
     const bool floats = options.placement.storage == Storage::Float;
     const auto as_stored = [&](const Points& placed) {
@@ -257,11 +255,6 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     result.recipe = recipe_of(options);
     warn(options, result);
     warn_of_shape(body, result);
-    if (marked_before && result.moved_vertices > 0) // where none moved, it is this very mark
-        result.warnings.emplace_back(
-            "The mesh seems to carry a mark of this kind already, and this one erases it. Where "
-            "both are wanted, take the unmarked mesh and two methods that leave each other "
-            "alone, as Waves or Spectral do with those of vertex norms.");
     result.seconds["measure"] = watch.lap();
     report(progress, 100, "Done");
     surface.points = std::move(marked.points);
