@@ -118,7 +118,11 @@ def trace(found: Path, ledger: Ledger, key: Key, originals: Path | None = None) 
     models = ledger.models()
     likes = {piece.name: nearest(piece, models) for piece in parts}
     groups = ledger.candidates()
-    attempts = [_Attempt(piece, settings, group) for piece in parts for settings, group in groups.items()]
+    whole = likes[parts[0].name]
+    in_order = (
+        parts if whole and whole.alike else [*parts[1:], parts[0]]
+    )  # what is no model is a plate of some, perhaps
+    attempts = [_Attempt(piece, settings, group) for piece in in_order for settings, group in groups.items()]
     if originals is not None:
         files = _originals(originals, models)
         attempts += [
