@@ -17,7 +17,8 @@ COARSER = 0.25  # of the model's faces; what has fewer was simplified beyond wha
 ROUGHER, SMOOTHER = 0.02, -0.03  # of the area; noise and smoothing that erase marks change it by more
 # A mark on a coarse model outlives little: only where that is as it was, but for place and size, would one be read.
 FINE = 8000  # faces
-STILL, EVEN = 4e-4, 1.5e-4  # of moments and area: a mark changes less, noise of .1 % and 9 bits more
+STILL = 1e-3  # of the moments
+EVEN, SANDED = 1.8e-4, -5e-4  # of the area: noise of .1 % and 9 bits add more, and mostly a mark less
 
 
 @dataclass(frozen=True)
@@ -38,7 +39,7 @@ class Likeness:
     def intact(self) -> bool:
         """It is the model, and a mark in it would be read."""
         if self.model.faces < FINE:
-            return self.difference < STILL and abs(self.roughening) < EVEN and abs(self.faces - 1) < 1e-3
+            return self.difference < STILL and SANDED < self.roughening < EVEN and abs(self.faces - 1) < 1e-3
         return self.difference < SAME and SMOOTHER < self.roughening < ROUGHER and self.faces > COARSER
 
 
