@@ -48,7 +48,8 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
         results["warnings"].push_back(others);
     const bool shows = values.getBool("ShowCarriers");
     if (shows && report.carrier_of_vertex.empty())
-        results["warnings"].push_back("There are no carriers to show: those of this method are no sets of vertices.");
+        results["warnings"].push_back(
+            "There are no carriers to show: those of this method are no sets of vertices, or a piece of the mesh was read.");
     file.write(results);
     if (shows && !report.carrier_of_vertex.empty())
         write_classes(add_copy(document, layer, "secret: carriers of " + layer.label()), report.carrier_of_vertex);

@@ -427,7 +427,9 @@ void expect_found_in_a_piece(Method method, const std::function<void(Surface&, c
     ASSERT_FALSE(found.parts.empty());
     EXPECT_LT(*found.parts.front().p_value, 1e-6);
     EXPECT_EQ(*found.p_value, *found.parts.front().p_value);
-    if (method == Method::LM) { // the others take long where they find nothing
+    EXPECT_EQ(found.pieces, static_cast<int>(found.parts.size()));
+    EXPECT_TRUE(found.carrier_of_vertex.empty()); // the piece's vertices are not the mesh's
+    if (method == Method::LM) {                   // the others take long where they find nothing
         EXPECT_GT(*read(mesh, options, key_from_text("another")).p_value, 1e-6);
     }
 }

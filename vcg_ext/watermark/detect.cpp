@@ -326,12 +326,16 @@ DetectReport detect_body(const Body& body, const Key& key, const DetectOptions& 
             frames.emplace(method.method, method.find_frame(body.surface, plan));
         return method.read(body.surface, plan, frames.at(method.method));
     };
-    DetectReport result = detect_by(read, body.site_of_vertex, share, key, options, progress);
+    return detect_by(read, body.site_of_vertex, share, key, options, progress);
+}
+
+/// Says of what pieces the body consists.
+void tell_pieces(const Body& body, DetectReport& result)
+{
     result.pieces = body.pieces;
     result.loose_pieces = body.loose_pieces;
     if (const std::string loose = about_loose_pieces(body); !loose.empty())
         result.warnings.push_back(loose);
-    return result;
 }
 
 } // namespace
@@ -342,7 +346,9 @@ DetectReport detect_whole(const Surface& surface, const Key& key, const DetectOp
     options.carriers.check();
     Stopwatch watch;
     report(progress, 0, "Finding carriers");
-    DetectReport result = detect_body(body_of(surface), key, options, share, progress);
+    const Body body = body_of(surface);
+    DetectReport result = detect_body(body, key, options, share, progress);
+    tell_pieces(body, result);
     result.seconds["detection"] = watch.lap();
     return result;
 }
@@ -360,12 +366,9 @@ DetectReport detect(const Surface& surface, const Key& key, const DetectOptions&
     const PieceReader read = [&](const Surface& piece, double share, const Progress& quietly) {
         return detect_whole(piece, key, options, share, quietly);
     };
-    if (!pieces.empty() && result.finding != Verdict::Present) {
-        const DetectReport whole = result;
+    if (!pieces.empty() && result.finding != Verdict::Present)
         look_at_pieces(read, pieces, result, within(progress, 30, 100));
-        result.pieces = whole.pieces;
-        result.loose_pieces = whole.loose_pieces;
-    }
+    tell_pieces(body, result);
     result.seconds["detection"] = watch.lap();
     report(progress, 100, "Done");
     return result;

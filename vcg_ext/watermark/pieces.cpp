@@ -70,6 +70,7 @@ void look_at_pieces(const PieceReader& read, const std::vector<Part>& pieces, De
                         percent(piece.area_share) + " of the area): " + found.verdict;
         for (const auto& [phase, seconds] : result.seconds)
             found.seconds[phase] += seconds;
+        found.carrier_of_vertex.clear(); // vertices of the piece, not of the mesh
         result = std::move(found);
     }
     result.parts = std::move(reports);

@@ -114,7 +114,7 @@ struct DetectReport {
     /// Spectral: whether axis 1 and axis 2 were read along (+) or against (-) the body's third moments, as "++" or "-+".
     std::string orientation;
     /// Per vertex the number of the carrier that it is in, or -1; of the first layer whose carriers are sets of vertices,
-    /// and empty where there is none.
+    /// and empty where there is none, or where a piece of the mesh was read.
     std::vector<int> carrier_of_vertex;
 };
 
