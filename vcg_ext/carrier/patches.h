@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../geometry/laplacian.h"
+#include "../geometry/moments.h"
 #include "../geometry/solid.h"
 
 namespace vcg_ext {
-
-/// Which principal axes point against those of the frame that cut the patches.
-struct AxisFlips {
-    bool first = false;
-    bool second = false;
-};
 
 /// A grid of patches over a surface: layers across the second principal axis, columns along the first.
 struct Patches {

@@ -40,12 +40,24 @@ StripFrame strip_frame(const Surface& closed, const Frame& frame, const Points& 
 {
     if (frame.measure == 0)
         throw Error("No face of the mesh has an area. Check its coordinates, or reconstruct the surface.");
-    const bool doubtful = is_round(frame) || is_symmetric(frame, 0) || is_symmetric(frame, 1);
     for (const Point& direction : directions)
         if (const auto hit = farthest_hit(closed, frame.centre, frame.axes * direction))
-            return {*hit, {}, doubtful};
+            return {*hit, {}, is_round(frame), {}};
     throw Error("No ray from the mesh's centre meets its surface, so geodesic distances have no source. "
                 "Use another method, or a more complete mesh.");
+}
+
+StripFrames strip_frames(const Surface& closed, const Frame& frame, const Points& directions)
+{
+    StripFrames frames;
+    for (const AxisFlips flips : axis_flips)
+        if (may_be_flipped(frame, flips)) {
+            frames.push_back(strip_frame(closed, flipped(frame, flips), directions));
+            frames.back().orientation = name(flips);
+        }
+    if (frames.size() == 1)
+        frames.front().orientation.clear();
+    return frames;
 }
 
 Strips strips_from(const StripFrame& frame, const Surface& closed, const VertexFaces& around, int carrying, double trim,

@@ -6,6 +6,8 @@
 #include "carriers.h"
 
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace vcg_ext {
 
@@ -14,8 +16,12 @@ struct StripFrame {
     SurfacePoint source;
     /// T_max; T_min is 0, the source itself. Empty: the farthest distance that the march finds.
     std::optional<double> farthest;
-    bool doubtful = false; ///< whether the body's frame may turn: a round body, or one that is even along an axis
+    bool round = false;      ///< whether the body's axes may turn, and the source with them
+    std::string orientation; ///< how the body is held, where it is too even along an axis to tell; else empty
 };
+
+/// By the body's own frame, and by the flipped ones where it is so even that those may be its own.
+using StripFrames = std::vector<StripFrame>;
 
 /// Strips of equal geodesic distance from a point that only the key knows.
 struct Strips {
@@ -38,6 +44,9 @@ struct Strips {
 ///
 /// \throw Error where no ray from the centre meets the surface
 [[nodiscard]] StripFrame strip_frame(const Surface& closed, const Frame& frame, const Points& directions);
+
+/// The same for each way in which the body may be held, that of `frame` first.
+[[nodiscard]] StripFrames strip_frames(const Surface& closed, const Frame& frame, const Points& directions);
 
 /// Distances from the frame's source, and the strips between `trim` and 1 - `trim` of the farthest ((4.4)-(4.6) with
 /// their offset put right). \param around of the surface's triangles

@@ -89,6 +89,32 @@ bool is_symmetric(const Frame& frame, int axis)
     return std::abs(frame.third_moments[axis]) < clear * std::pow(frame.variances[axis], 1.5);
 }
 
+std::string name(AxisFlips flips)
+{
+    return {flips.first ? '-' : '+', flips.second ? '-' : '+'};
+}
+
+Frame flipped(Frame frame, AxisFlips flips)
+{
+    const Point signs(flips.first ? -1 : 1, flips.second ? -1 : 1, flips.first != flips.second ? -1 : 1);
+    frame.axes *= signs.asDiagonal();
+    frame.third_moments = frame.third_moments.cwiseProduct(signs);
+    return frame;
+}
+
+bool may_be_flipped(const Frame& frame, AxisFlips flips)
+{
+    return (!flips.first || is_symmetric(frame, 0)) && (!flips.second || is_symmetric(frame, 1));
+}
+
+Frame turned_like(Frame frame, const Frame& like)
+{
+    for (int k = 0; k < 3; ++k)
+        if (frame.axes.col(k).dot(like.axes.col(k)) < 0)
+            frame.axes.col(k) *= -1;
+    return frame;
+}
+
 bool is_round(const Frame& frame)
 {
     constexpr double clear = 0.02;

@@ -2,6 +2,9 @@
 #pragma once
 #include "../base/surface.h"
 
+#include <array>
+#include <string>
+
 namespace vcg_ext {
 
 /// The coordinate system that a body itself defines, whatever its position, rotation and scale.
@@ -30,6 +33,27 @@ struct Frame {
 
 /// Whether the body is so even along an axis (0 to 2) that its third moment there may change sign.
 [[nodiscard]] bool is_symmetric(const Frame& frame, int axis);
+
+/// Which of the first two principal axes point the other way; the third then does what keeps them right-handed.
+struct AxisFlips {
+    bool first = false;
+    bool second = false;
+};
+
+/// All that there are, none flipped first.
+constexpr std::array<AxisFlips, 4> axis_flips = {{{false, false}, {true, false}, {false, true}, {true, true}}};
+
+/// Such as "+-".
+[[nodiscard]] std::string name(AxisFlips flips);
+
+/// The frame with its axes flipped.
+[[nodiscard]] Frame flipped(Frame frame, AxisFlips flips);
+
+/// Whether the body is so even that its frame may as well be the flipped one.
+[[nodiscard]] bool may_be_flipped(const Frame& frame, AxisFlips flips);
+
+/// `frame`, its axes pointing the way that those of `like` do.
+[[nodiscard]] Frame turned_like(Frame frame, const Frame& like);
 
 /// Whether two variances are so near to each other that the axes may turn, or swap.
 [[nodiscard]] bool is_round(const Frame& frame);

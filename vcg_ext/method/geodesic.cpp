@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace vcg_ext {
 
@@ -29,9 +30,9 @@ std::vector<double> front_targets(const Cover& cover, const Strips& strips, cons
 std::vector<std::string> warnings_of(const StripFrame& frame, const Strips& strips)
 {
     std::vector<std::string> warnings;
-    if (frame.doubtful)
+    if (frame.round)
         warnings.emplace_back(
-            "The body is round or symmetric, so its own axes are not sure, and Geodesic finds its source by them: the "
+            "The body is round about an axis, so its own axes are not sure, and Geodesic finds its source by them: the "
             "least change of the shape may lose the mark. Choose Layered, Waves or a method of vertex norms.");
     if (strips.unreached > 0)
         warnings.push_back(std::to_string(strips.unreached) +
@@ -40,15 +41,15 @@ std::vector<std::string> warnings_of(const StripFrame& frame, const Strips& stri
     return warnings;
 }
 
+/// What the carriers say in all, for either bit.
+double evidence(const Reading& way)
+{
+    return std::inner_product(way.soft.begin(), way.soft.end(), way.soft.begin(), 0.0);
+}
+
 Surface closed(const SolidTopology& topology, const Points& vertices)
 {
     return {solid_points(topology, vertices), topology.triangles};
-}
-
-StripFrame found(const SolidTopology& topology, const Points& vertices, const Plan& plan)
-{
-    const Surface body = closed(topology, vertices);
-    return strip_frame(body, principal_frame(body.points, topology), plan.directions);
 }
 
 /// The distance from the source as embed_scalar() wants it.
@@ -56,13 +57,18 @@ class Distance {
 public:
     Distance(const Cover& cover, const Plan& plan, FrontScheme scheme)
         : topology_(solid_topology(cover.surface)), closed_(closed(topology_, cover.points)),
-          cover_(closed_, cover.held), plan_(plan), scheme_(scheme)
+          axes_(principal_frame(closed_.points, topology_)), cover_(closed_, cover.held), plan_(plan), scheme_(scheme)
     {
     }
 
     static constexpr double guard = 0.02; // the source moves along with the mark, and the strips with it
 
-    [[nodiscard]] StripFrame find(const Points& points) const { return found(topology_, points, plan_); }
+    /// In the orientation of the cover: of an even body, the mark itself may flip the axes.
+    [[nodiscard]] StripFrame find(const Points& points) const
+    {
+        const Surface body = closed(topology_, points);
+        return strip_frame(body, turned_like(principal_frame(body.points, topology_), axes_), plan_.directions);
+    }
 
     [[nodiscard]] Carriers read(const Points& points, const StripFrame& frame) const
     {
@@ -122,6 +128,7 @@ public:
 private:
     SolidTopology topology_;
     Surface closed_;
+    Frame axes_;  ///< of the cover
     Cover cover_; ///< the closed surface
     const Plan& plan_;
     FrontScheme scheme_;
@@ -145,7 +152,9 @@ Plan plan_geodesic(const Key& key, const CarrierOptions& options)
 
 MarkFrame find_geodesic(const Surface& surface, const Plan& plan)
 {
-    return found(solid_topology(surface), surface.points, plan);
+    const SolidTopology topology = solid_topology(surface);
+    const Surface body = closed(topology, surface.points);
+    return strip_frames(body, principal_frame(body.points, topology), plan.directions);
 }
 
 Readings read_geodesic(const Surface& surface, const Plan& plan, const MarkFrame& frame)
@@ -153,12 +162,27 @@ Readings read_geodesic(const Surface& surface, const Plan& plan, const MarkFrame
     const SolidTopology topology = solid_topology(surface);
     const Surface body = closed(topology, surface.points);
     const VertexFaces around = vertex_faces(topology.points(), topology.triangles);
-    const StripFrame& strip_frame = std::get<StripFrame>(frame);
-    Strips strips =
-        read_strips(body, around, topology.sites, strip_frame, plan.trim, plan.options.bits, plan.options.statistic);
-    Readings readings = read_carriers(std::move(strips.carriers), plan);
-    readings.smoothing_rounds = strips.smoothing_rounds;
-    readings.warnings = warnings_of(strip_frame, strips);
+    const auto& frames = std::get<StripFrames>(frame);
+    Readings readings;
+    std::vector<Reading> ways;
+    double most = -1;
+    for (const StripFrame& held : frames) {
+        Strips strips =
+            read_strips(body, around, topology.sites, held, plan.trim, plan.options.bits, plan.options.statistic);
+        Readings here = read_carriers(std::move(strips.carriers), plan);
+        ways.push_back(std::move(here.ways.front()));
+        ways.back().weight = 1.0 / static_cast<double>(frames.size());
+        ways.back().orientation = held.orientation;
+        const double found = evidence(ways.back());
+        if (found <= most)
+            continue;
+        most = found;
+        readings = std::move(here);
+        readings.blind = static_cast<int>(ways.size()) - 1;
+        readings.smoothing_rounds = strips.smoothing_rounds;
+        readings.warnings = warnings_of(held, strips);
+    }
+    readings.ways = std::move(ways);
     return readings;
 }
 
@@ -172,8 +196,8 @@ Readings read_geodesic_copy(const Copy& copy, const Plan& plan, const MarkFrame&
     const SolidTopology topology = solid_topology(copy.original);
     const Surface original = closed(topology, copy.original.points);
     const VertexFaces around = vertex_faces(topology.points(), topology.triangles);
-    const Strips strips =
-        strips_from(std::get<StripFrame>(frame), original, around, topology.sites, plan.trim, plan.options.bits);
+    const Strips strips = strips_from(std::get<StripFrames>(frame).front(), original, around, topology.sites, plan.trim,
+                                      plan.options.bits);
     std::vector<double> distances;
     for (const Foot& foot : feet_on_original(copy, laid_on_original(copy))) {
         double distance = -1;

@@ -28,6 +28,6 @@ struct Plan {
 /// How a body is held, so that its carriers can be found, however many these are: by the surface itself, or by another
 /// that it was registered to. Which kind, the method says.
 using MarkFrame =
-    std::variant<ShellFrame, StripFrame, Frame, std::shared_ptr<WaveSpectra>, std::shared_ptr<const WaveCopy>>;
+    std::variant<ShellFrame, StripFrames, Frame, std::shared_ptr<WaveSpectra>, std::shared_ptr<const WaveCopy>>;
 
 } // namespace vcg_ext

@@ -70,15 +70,6 @@ double best_threshold(const std::vector<PatchShape>& shapes, int least_samples =
     return two_means(std::move(ratios));
 }
 
-/// `frame`, its axes pointing the way that those of `like` do.
-Frame turned_like(Frame frame, const Frame& like)
-{
-    for (int k = 0; k < 3; ++k)
-        if (frame.axes.col(k).dot(like.axes.col(k)) < 0)
-            frame.axes.col(k) *= -1;
-    return frame;
-}
-
 Frame checked_frame(const Points& vertices, const SolidTopology& topology)
 {
     Frame frame = principal_frame(solid_points(topology, vertices), topology);
@@ -131,8 +122,8 @@ namespace {
 std::vector<AxisFlips> orientations(const Plan& plan)
 {
     if (plan.options.as_printed)
-        return {{false, false}};
-    return {{false, false}, {true, false}, {false, true}, {true, true}};
+        return {axis_flips.front()};
+    return {axis_flips.begin(), axis_flips.end()};
 }
 
 bool spare_bit(int number)
@@ -147,7 +138,7 @@ int blind_orientation(const PatchReading& reading, const Plan& plan)
     double most = -std::numeric_limits<double>::infinity();
     for (std::size_t way = 0; way < all.size(); ++way) {
         const AxisFlips flips = all[way];
-        if ((flips.first && !is_symmetric(reading.frame, 0)) || (flips.second && !is_symmetric(reading.frame, 1)))
+        if (!may_be_flipped(reading.frame, flips))
             continue;
         const std::vector<int> patches = carrying_patches(reading, plan, flips);
         double agreement = 0;
@@ -324,7 +315,7 @@ Readings read_spectral(const Surface& surface, const Plan& plan, const MarkFrame
     for (const AxisFlips flips : all) {
         Reading reading;
         reading.weight = 1.0 / static_cast<double>(all.size());
-        reading.orientation = {flips.first ? '-' : '+', flips.second ? '-' : '+'};
+        reading.orientation = name(flips);
         reading.label = carrying_patches(patches, plan, flips);
         reading.label.resize(plan.options.bits);
         for (const int patch : reading.label) {
