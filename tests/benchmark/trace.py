@@ -7,8 +7,6 @@ traced. Unmarked models, and copies of another shop with another key, are attack
 build/venv/bin/python tests/benchmark/trace.py
 """
 
-import itertools
-import os
 import tempfile
 import time
 from collections import Counter, defaultdict
@@ -21,53 +19,18 @@ import numpy as np
 import trimesh
 import typer
 from dask.distributed import LocalCluster
-from meshmark.catalog import Ledger, Order, make_copies
-from meshmark.catalog.recipients import Recipient
-from meshmark.settings import Settings
-from meshmark.tracing import Answer, trace
+from meshmark.tracing import Answer
 from rich.console import Console
 from rich.table import Table
+from shop import MESHES, Shop
 
-MESHES = Path(__file__).resolve().parents[2] / "build" / "data" / "meshes"
 MODELS = [
     "hand", "elk", "blobby", "cow", "elephant", "homer", "fandisk", "dino", "lion-head", "fandisk_large",
     "diplodocus", "bunny00",
 ]  # fmt: skip
 SIZES = (2_000, 8_000, 15_000)  # vertices: where the columns of the table end
-RECIPIENTS = 20
 
 Attack = Callable[[Path, Path, int], Path]  # a copy, a folder, a seed; the attacked file
-
-
-class Shop:
-    """Models, a key, and a copy of every model for its own part of the recipients."""
-
-    def __init__(self, folder: Path, models: list[Path], copies: int, scheduler: str) -> None:
-        self.models = folder / "models"
-        self.models.mkdir(parents=True)
-        for model in models:
-            (self.models / model.name).write_bytes(model.read_bytes())
-        self.key = meshmark.Key(f"file:{folder / 'secret.key'}")
-        (folder / "secret.key").write_bytes(os.urandom(32))
-        per_model = [len(range(n, copies, len(models))) for n in range(len(models))]
-        buyers = itertools.cycle(f"buyer-{n}" for n in range(RECIPIENTS))
-        orders = defaultdict(list)
-        for model, count in zip(models, per_model, strict=True):
-            for _ in range(count):
-                orders[next(buyers)].append(model.name)
-        recipients = [Recipient(name, tuple(names)) for name, names in orders.items()]
-        self.ledger = folder / "ledger.sqlite"
-        order = Order(self.models, folder / "out", recipients, self.key, Settings(), otherwise=("L-M",))
-        self.refused = make_copies(order, self.ledger, scheduler=scheduler).refused
-        with Ledger(self.ledger) as ledger:
-            names = {model.id: model for model in ledger.models()}
-            self.copies = [(folder / "out" / c.file, ledger.name(c.recipient), names[c.model]) for c in ledger.copies()]
-
-    def answer(self, found: Path, originals: bool = False) -> tuple[Answer, str | None]:
-        """Whose copy it is."""
-        with Ledger(self.ledger) as ledger:
-            result = trace(found, ledger, self.key, self.models if originals else None)
-        return result.answer, result.recipient
 
 
 def filtered(name: str, amount: float = -1, iterations: int = -1) -> Attack:
