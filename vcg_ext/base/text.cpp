@@ -29,6 +29,11 @@ std::string chance(double log10_p)
     return "p 1e" + std::to_string(static_cast<int>(std::ceil(log10_p)));
 }
 
+std::string percent(double part)
+{
+    return std::to_string(std::lround(100 * part)) + " %";
+}
+
 bool starts_with(std::string_view text, std::string_view prefix)
 {
     return text.substr(0, prefix.size()) == prefix;

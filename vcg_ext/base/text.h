@@ -12,6 +12,9 @@ namespace vcg_ext {
 /// A probability as verdicts have it, rounded up to a power of ten so that it stays a bound: "p 1e-6".
 [[nodiscard]] std::string chance(double log10_p);
 
+/// A part, such as 0.17, in whole hundredths: "17 %".
+[[nodiscard]] std::string percent(double part);
+
 [[nodiscard]] bool starts_with(std::string_view text, std::string_view prefix);
 
 } // namespace vcg_ext

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "comb.h"
 
+#include "../base/median.h"
 #include "../payload/code.h"
 #include "statistic.h"
 
@@ -74,9 +75,7 @@ double mean_strength(const RunningSums& sums, double trim, int carriers, Statist
     }
     if (strengths.empty())
         return 0;
-    const auto middle = strengths.begin() + static_cast<std::ptrdiff_t>(strengths.size() / 2);
-    std::nth_element(strengths.begin(), middle, strengths.end());
-    const double most = 4 * *middle;
+    const double most = 4 * median(strengths);
     double sum = 0;
     for (const double strength : strengths)
         sum += std::min(strength, most);
@@ -96,10 +95,8 @@ Comb find_comb(const std::vector<double>& scalar, double minimum, double maximum
             std::vector<double> strengths;
             for (double trim = 0; trim <= most_trim; trim += step / carriers)
                 strengths.push_back(mean_strength(sums, trim, carriers, statistic));
-            const auto middle = strengths.begin() + static_cast<std::ptrdiff_t>(strengths.size() / 2);
-            std::nth_element(strengths.begin(), middle, strengths.end());
-            const double most = *std::max_element(middle, strengths.end());
-            const Comb comb{most, most / std::max(*middle, 1e-9)};
+            const double most = *std::max_element(strengths.begin(), strengths.end());
+            const Comb comb{most, most / std::max(median(std::move(strengths)), 1e-9)};
             if (comb.found() > plainest.found() ||
                 (comb.found() == plainest.found() && comb.contrast > plainest.contrast))
                 plainest = comb;

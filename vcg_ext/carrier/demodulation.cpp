@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demodulation.h"
 
+#include "../base/median.h"
 #include "../base/parallel.h"
 #include "../base/pi.h"
 #include "../geometry/wave_sums.h"
@@ -50,13 +51,6 @@ MatrixXd weighted_product(const X& x, const VectorXd& w, const Y& y)
     for (const MatrixXd& part : parts)
         sum += part;
     return sum;
-}
-
-double median_of(std::vector<double> values)
-{
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 /// Places of equal key get equal numbers.
@@ -110,7 +104,7 @@ void weigh(const Group& group, const VectorXd& error, double floor, VectorXd& we
     std::vector<double> sizes;
     for (const int i : group.members)
         sizes.push_back(std::abs(error[i]));
-    const double middle = median_of(sizes);
+    const double middle = median(sizes);
     double variance = floor;
     for (const double size : sizes)
         variance += std::min(size * size, outlier * 2.2 * middle * middle) / static_cast<double>(n);
@@ -298,7 +292,7 @@ public:
                 groups_.push_back(std::move(group));
         }
         std::vector<double> all(field.residual.data(), field.residual.data() + field.residual.size());
-        error_ = field.residual.array() - median_of(all);
+        error_ = field.residual.array() - median(all);
         Stream draws = seeded_stream(0, "demodulation");
         some_ = draws.permutation(field.count());
         some_.resize(std::min<std::size_t>(some_.size(), rough_samples));

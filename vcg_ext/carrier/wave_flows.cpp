@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wave_flows.h"
 
+#include "../base/median.h"
 #include "../base/parallel.h"
 #include "../geometry/laplacian.h"
 
@@ -65,9 +66,7 @@ std::vector<std::vector<double>> processing_flows(const WaveBody& body, const Po
             area[t[k]] += doubled / 6;
         }
     }
-    std::vector<double> sorted = area;
-    std::nth_element(sorted.begin(), sorted.begin() + sites / 2, sorted.end());
-    const double most = 1 / std::sqrt(std::max(sorted[sites / 2], 1e-12));
+    const double most = 1 / std::sqrt(std::max(median(area), 1e-12));
     const EdgeGraph graph = edge_graph(surface);
     std::vector<double> curvature(sites, 0);
     std::vector<double> umbrella(sites, 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "icp.h"
 
+#include "../base/median.h"
 #include "../base/parallel.h"
 
 #include <Eigen/Cholesky>
@@ -64,9 +65,7 @@ double median_of_sizes(const std::vector<Pair>& pairs)
     sizes.reserve(pairs.size());
     for (const Pair& pair : pairs)
         sizes.push_back(std::abs(pair.missing));
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    return *middle;
+    return median(std::move(sizes));
 }
 
 /// One step's unknowns. \param floor of the spread, in the original's unit

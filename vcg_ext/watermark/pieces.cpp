@@ -2,9 +2,9 @@
 #include "pieces.h"
 
 #include "../base/error.h"
+#include "../base/text.h"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace vcg_ext {
 
@@ -74,13 +74,6 @@ void look_at_pieces(const PieceReader& read, const std::vector<Part>& pieces, De
         result = std::move(found);
     }
     result.parts = std::move(reports);
-}
-
-std::string percent(double part)
-{
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.0f %%", 100 * part);
-    return buffer;
 }
 
 } // namespace vcg_ext

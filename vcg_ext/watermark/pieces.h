@@ -27,7 +27,4 @@ using PieceReader = std::function<DetectReport(const Surface& piece, double shar
 void look_at_pieces(const PieceReader& read, const std::vector<Part>& pieces, DetectReport& result,
                     const Progress& progress);
 
-/// "17 %"
-[[nodiscard]] std::string percent(double part);
-
 } // namespace vcg_ext
