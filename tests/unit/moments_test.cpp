@@ -141,4 +141,26 @@ TEST(Moments, VolumeDoesNotDependOnThePoint)
     EXPECT_NEAR(signed_volume(box(3, 2, 1), {7, -5, 11}), 6, 1e-12);
 }
 
+TEST(Moments, AFlippedFrameIsThatOfTheTurnedBody)
+{
+    Surface body = shapes::sphere(2);
+    for (Point& p : body.points)
+        p = Point(3, 2, 1).cwiseProduct(p + 0.1 * p.cwiseProduct(p));
+    const Frame frame = solid_frame(body.points, body.triangles);
+    for (const AxisFlips flips : axis_flips) {
+        const Frame other = flipped(frame, flips);
+        EXPECT_NEAR(other.axes.determinant(), 1, 1e-12) << name(flips);
+        EXPECT_EQ(other.axes.col(0).dot(frame.axes.col(0)) < 0, flips.first);
+        EXPECT_EQ(other.axes.col(1).dot(frame.axes.col(1)) < 0, flips.second);
+        EXPECT_TRUE(turned_like(other, frame).axes.isApprox(frame.axes, 1e-12));
+        for (int axis = 0; axis < 3; ++axis) { // third moments change sign with their axis
+            double third = 0;
+            for (const Point& p : body.points)
+                third += std::pow(other.axes.col(axis).dot(p - frame.centre), 3);
+            EXPECT_GT(third * other.third_moments[axis], 0) << name(flips) << axis;
+        }
+        EXPECT_EQ(may_be_flipped(frame, flips), !flips.first && !flips.second);
+    }
+}
+
 } // namespace

@@ -36,4 +36,19 @@ std::vector<Foot> feet_on_original(const Copy& copy, const Surface& laid)
     return feet;
 }
 
+std::vector<char> places_that_are_left(const Copy& copy, const Surface& laid)
+{
+    constexpr double reach = 0.03; // of the original's size: further than wear moves a surface
+    const FootSearch search(laid);
+    const Points& places = copy.original.points;
+    std::vector<char> left(places.size());
+    for_chunks(static_cast<int>(places.size()), 512, [&](int begin, int end) {
+        for (int v = begin; v < end; ++v) {
+            const Foot foot = search(places[v], reach * copy.registrar.size());
+            left[v] = foot.face >= 0 && !foot.on_rim ? 1 : 0;
+        }
+    });
+    return left;
+}
+
 } // namespace vcg_ext

@@ -15,6 +15,9 @@ struct Copy {
 /// Where its vertices stand on the original, laid on it: no feet where that is missing.
 [[nodiscard]] std::vector<Foot> feet_on_original(const Copy& copy, const Surface& laid);
 
+/// Per vertex of the original whether that place is there in the copy laid on it, and was not cut off.
+[[nodiscard]] std::vector<char> places_that_are_left(const Copy& copy, const Surface& laid);
+
 /// The copy laid on its original: in the original's place, at its size, its faces looking the same way.
 [[nodiscard]] Surface laid_on_original(const Copy& copy);
 

@@ -74,7 +74,7 @@ const std::vector<MethodRow>& all_methods()
          find_norms,
          read_norms,
          nullptr,
-         nullptr,
+         read_norms_copy,
          embed_norms<Radial::Sphere>},
         {Method::QSP,
          "QSP",
@@ -89,7 +89,7 @@ const std::vector<MethodRow>& all_methods()
          find_norms,
          read_norms,
          nullptr,
-         nullptr,
+         read_norms_copy,
          embed_norms<Radial::Selective>},
         {Method::Cho,
          "Cho",
@@ -104,7 +104,7 @@ const std::vector<MethodRow>& all_methods()
          find_norms,
          read_norms,
          nullptr,
-         nullptr,
+         read_norms_copy,
          embed_norms<Radial::Straight>},
         {Method::Geodesic,
          "Geodesic",
@@ -151,11 +151,6 @@ const MethodRow& row_of(Method method)
 MarkFrame find_copy(const MethodRow& method, const Copy& copy, const Plan& plan)
 {
     return method.find_copy ? method.find_copy(copy, plan) : method.find_frame(copy.original, plan);
-}
-
-Readings read_copy(const MethodRow& method, const Copy& copy, const Plan& plan, const MarkFrame& frame)
-{
-    return method.read_copy ? method.read_copy(copy, plan, frame) : method.read(laid_on_original(copy), plan, frame);
 }
 
 const char* name(Method method)

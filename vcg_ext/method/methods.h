@@ -46,7 +46,7 @@ struct MethodRow {
     /// the original lies by itself.
     MarkFrame (*find_copy)(const Copy& copy, const Plan& plan);
 
-    /// What the carriers of a copy say, given find_copy(). Null: what read() says of it where it is laid on the original.
+    /// What the carriers of a copy say, given find_copy().
     Readings (*read_copy)(const Copy& copy, const Plan& plan, const MarkFrame& frame);
 
     /// Writes the coded bits, as many as carriers. `options.strength` is in range.
@@ -57,9 +57,6 @@ struct MethodRow {
 
 /// MethodRow::find_copy, or what stands for it.
 [[nodiscard]] MarkFrame find_copy(const MethodRow& method, const Copy& copy, const Plan& plan);
-
-/// MethodRow::read_copy, likewise.
-[[nodiscard]] Readings read_copy(const MethodRow& method, const Copy& copy, const Plan& plan, const MarkFrame& frame);
 
 /// All methods, in the order in which users choose.
 [[nodiscard]] const std::vector<MethodRow>& all_methods();

@@ -202,6 +202,15 @@ Readings read_norms(const Surface& surface, const Plan& plan, const MarkFrame& f
     return read_carriers(shells(surface.points, std::get<ShellFrame>(frame), plan.trim, plan.options.bits), plan);
 }
 
+Readings read_norms_copy(const Copy& copy, const Plan& plan, const MarkFrame& frame)
+{
+    const auto cut = [&](const Points& points) {
+        return shells(points, std::get<ShellFrame>(frame), plan.trim, plan.options.bits);
+    };
+    const Surface laid = laid_on_original(copy);
+    return read_part(cut(laid.points), cut(copy.original.points), places_that_are_left(copy, laid), plan);
+}
+
 template <Radial placement>
 Marking embed_norms(const Cover& cover, const Plan& plan, const Bits& coded, const PlacementOptions& options,
                     const Progress& progress)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../placement/cover.h"
+#include "copy.h"
 #include "scalar.h"
 
 namespace vcg_ext {
@@ -10,6 +11,9 @@ namespace vcg_ext {
 [[nodiscard]] Plan plan_norms(const Key& key, const CarrierOptions& options);
 [[nodiscard]] MarkFrame find_norms(const Surface& surface, const Plan& plan);
 [[nodiscard]] Readings read_norms(const Surface& surface, const Plan& plan, const MarkFrame& frame);
+
+/// With the original at hand: its shells, and what is left of each beside the same part of the original.
+[[nodiscard]] Readings read_norms_copy(const Copy& copy, const Plan& plan, const MarkFrame& frame);
 
 /// How a vertex gets to its sphere.
 enum class Radial {

@@ -28,13 +28,11 @@ double float_guard(const Points& points, const Carriers& carriers)
     return 4 * std::numeric_limits<float>::epsilon() * largest / carriers.width;
 }
 
-} // namespace
-
-Readings read_carriers(Carriers carriers, const Plan& plan)
+/// \param read per carrier what its `count` samples say; a carrier without any says nothing
+Readings readings_of(Carriers carriers, const std::vector<double>& read, const std::vector<int>& count,
+                     const Plan& plan)
 {
     const Statistic statistic = plan.options.statistic;
-    const std::vector<int> count = samples(carriers);
-    const std::vector<double> read = statistics(carriers, statistic);
     Reading reading;
     for (const int k : plan.order) {
         reading.soft.push_back(count[k] > 0 ? (read[k] - threshold(statistic)) / standard_error(statistic, count[k])
@@ -47,6 +45,35 @@ Readings read_carriers(Carriers carriers, const Plan& plan)
     readings.ways.push_back(std::move(reading));
     readings.label_of_vertex = std::move(carriers.label);
     return readings;
+}
+
+} // namespace
+
+Readings read_carriers(Carriers carriers, const Plan& plan)
+{
+    const std::vector<int> count = samples(carriers);
+    const std::vector<double> read = statistics(carriers, plan.options.statistic);
+    return readings_of(std::move(carriers), read, count, plan);
+}
+
+Readings read_part(Carriers part, const Carriers& original, const std::vector<char>& left, const Plan& plan)
+{
+    const Statistic statistic = plan.options.statistic;
+    Carriers rest = original;
+    for (std::size_t v = 0; v < rest.label.size(); ++v)
+        if (!left[v])
+            rest.label[v] = -1;
+    std::vector<int> count = samples(part);
+    const std::vector<int> of_rest = samples(rest);
+    std::vector<double> read = statistics(part, statistic);
+    const std::vector<double> whole = statistics(original, statistic);
+    const std::vector<double> same_part = statistics(rest, statistic);
+    for (std::size_t k = 0; k < read.size(); ++k) {
+        read[k] += whole[k] - same_part[k];
+        if (of_rest[k] == 0)
+            count[k] = 0;
+    }
+    return readings_of(std::move(part), read, count, plan);
 }
 
 std::vector<double> target_scalars(const Carriers& cover, const std::vector<double>& mobility,

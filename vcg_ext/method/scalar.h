@@ -12,6 +12,13 @@ namespace vcg_ext {
 /// The reading of carriers that are sets of vertices with one scalar each.
 [[nodiscard]] Readings read_carriers(Carriers carriers, const Plan& plan);
 
+/// The reading of the carriers of a part, beside those of the original and the vertices of it that are left in the part.
+///
+/// A part of a carrier has not the statistic of the whole, marked or not: by how much the original's own part differs
+/// from the original's whole is taken off (a control variate).
+[[nodiscard]] Readings read_part(Carriers part, const Carriers& original, const std::vector<char>& left,
+                                 const Plan& plan);
+
 /// The scalar that each vertex is to have, NaN where it stays: every carrier's histogram mapped to its target, but for
 /// those that are beyond it already.
 ///

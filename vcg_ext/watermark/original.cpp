@@ -88,7 +88,7 @@ public:
             const LayerReader read = [&](const MethodRow& method, const Plan& plan) {
                 if (frames.find(method.method) == frames.end())
                     frames.emplace(method.method, find_copy(method, copy, plan));
-                return read_copy(method, copy, plan, frames.at(method.method));
+                return method.read_copy(copy, plan, frames.at(method.method));
             };
             result = detect_by(read, site_of_vertex, share, key_, options_, within(progress, 50, 100));
         } else {

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vcg_ext/method/scalar.h"
+
+#include "vcg_ext/carrier/statistic.h"
+
+#include <gtest/gtest.h>
+
+using namespace vcg_ext;
+
+namespace {
+
+Plan plan_of(int carriers)
+{
+    Plan plan;
+    plan.options.bits = carriers;
+    plan.options.statistic = Statistic::Mean;
+    for (int k = 0; k < carriers; ++k)
+        plan.order.push_back(k);
+    return plan;
+}
+
+TEST(ReadPart, TakesOffWhatTheOriginalsPartDiffersByFromItsWhole)
+{
+    // One carrier whose whole reads .4, in halves of .3 and .5; the mark adds .15, and the first half is cut off.
+    const Carriers original = {1, 0, 1, {0, 0, 0, 0}, {0.3, 0.3, 0.5, 0.5}};
+    const Carriers part = {1, 0, 1, {0, 0}, {0.65, 0.65}};
+    const Reading read = read_part(part, original, {0, 0, 1, 1}, plan_of(1)).ways.front();
+    EXPECT_NEAR(read.soft[0], (0.4 + 0.15 - 0.5) / standard_error(Statistic::Mean, 2), 1e-12);
+    EXPECT_EQ(read.samples[0], 2);
+    EXPECT_FALSE(read.erased[0]);
+}
+
+TEST(ReadPart, OfTheWholeIsWhatReadingItSays)
+{
+    const Carriers original = {2, 0, 0.5, {0, 1, 0, 1}, {0.3, 0.6, 0.5, 0.1}};
+    const Carriers marked = {2, 0, 0.5, {0, 1, 0, 1}, {0.5, 0.4, 0.7, 0.2}};
+    const Reading part = read_part(marked, original, {1, 1, 1, 1}, plan_of(2)).ways.front();
+    const Reading whole = read_carriers(marked, plan_of(2)).ways.front();
+    for (int k = 0; k < 2; ++k)
+        EXPECT_NEAR(part.soft[k], whole.soft[k], 1e-12);
+}
+
+TEST(ReadPart, WhereNothingOfTheOriginalIsLeftIsAnErasure)
+{
+    const Carriers original = {2, 0, 0.5, {0, 1}, {0.3, 0.6}};
+    const Reading read = read_part({2, 0, 0.5, {0, 1}, {0.4, 0.6}}, original, {1, 0}, plan_of(2)).ways.front();
+    EXPECT_FALSE(read.erased[0]);
+    EXPECT_TRUE(read.erased[1]);
+    EXPECT_EQ(read.soft[1], 0);
+}
+
+} // namespace
