@@ -36,7 +36,7 @@ RichParameterList parameters(const MeshDocument&)
     list.addParam(
         RichFloat("Amount", -1, "Amount", "How much, as said above for each attack; -1 takes the usual amount."));
     list.addParam(RichInt("Iterations", -1, "Iterations",
-                          "How often, for Smooth, Remesh and Subdivide; -1 takes the usual number."));
+                          "How often, for Smooth, Remesh, Subdivide, Taubin, Loop and Sqrt3; -1: as usual."));
     list.addParam(RichInt("Seed", 0, "Seed", "Of all random draws, 0 or more."));
     return list;
 }

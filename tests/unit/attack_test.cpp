@@ -36,8 +36,8 @@ TEST(Attack, EachHasItsOwnName)
     std::set<std::string> names;
     for (const Attack attack : all_attacks())
         names.insert(name(attack));
-    EXPECT_EQ(names.size(), 12u);
-    EXPECT_EQ(std::string(name(Attack::Reorder)), "Reorder");
+    EXPECT_EQ(names.size(), 17u);
+    EXPECT_EQ(std::string(name(Attack::Plate)), "Plate");
 }
 
 TEST(Attack, SaysWhatItLeft)

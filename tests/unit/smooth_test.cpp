@@ -53,4 +53,15 @@ TEST(Smooth, LeavesVerticesWithoutFaces)
     EXPECT_EQ(smooth(ball, 0.5, 3).back(), Point(5, 6, 7));
 }
 
+TEST(Taubin, OfATetrahedronByHand)
+{
+    // A regular one about the origin: a step by part turns it into 1 - 4/3 part of itself.
+    const Surface start = {{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
+                           {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
+    const Points end = smooth_by_taubin(start, 0.3, 4);
+    const double each = (1 - 4.0 / 3 * 0.3) * (1 + 4.0 / 3 * 0.318);
+    for (std::size_t v = 0; v < end.size(); ++v)
+        EXPECT_LT((end[v] - std::pow(each, 4) * start.points[v]).norm(), 1e-14);
+}
+
 } // namespace

@@ -9,7 +9,10 @@
 #include "affine.h"
 #include "crop.h"
 #include "isosurface.h"
+#include "loop.h"
+#include "mirror.h"
 #include "noise.h"
+#include "plate.h"
 #include "quantize.h"
 #include "remesh.h"
 #include "reorder.h"
@@ -17,6 +20,7 @@
 #include "similarity.h"
 #include "simplify.h"
 #include "smooth.h"
+#include "sqrt3.h"
 #include "subdivide.h"
 
 #include <algorithm>
@@ -137,6 +141,25 @@ const std::vector<Row>& rows()
          }},
         {Attack::Reorder, "Reorder", seeded(AttackRange()),
          [](const Surface& s, const AttackReport& r, const Progress&) { return reorder(s, r.seed); }},
+        {Attack::Taubin, "Taubin",
+         repeated(moves("lambda of the step inwards, 1.06 of it outwards", 0.5, 0, 1), 10, 1000),
+         [](const Surface& s, const AttackReport& r, const Progress& progress) {
+             return with_positions(s, smooth_by_taubin(s, r.amount, r.iterations, progress));
+         }},
+        {Attack::Loop, "Loop", repeated(AttackRange(), 1, 6),
+         [](const Surface& s, const AttackReport& r, const Progress& progress) {
+             return subdivide_by_loop(weld(s).surface, r.iterations, progress);
+         }},
+        {Attack::Sqrt3, "Sqrt3", repeated(AttackRange(), 1, 8),
+         [](const Surface& s, const AttackReport& r, const Progress& progress) {
+             return subdivide_by_sqrt3(weld(s).surface, r.iterations, progress);
+         }},
+        {Attack::Mirror, "Mirror", AttackRange(),
+         [](const Surface& s, const AttackReport&, const Progress&) { return mirror(s); }},
+        {Attack::Plate, "Plate", seeded(whole(rebuilds("copies", 4, 2, 64))),
+         [](const Surface& s, const AttackReport& r, const Progress&) {
+             return plate(s, static_cast<int>(r.amount), r.seed);
+         }},
     };
     return table;
 }

@@ -23,7 +23,12 @@ enum class Attack {
     Crop,       ///< by a random plane
     Similarity, ///< random rotation, translation, uniform scale
     Affine,     ///< random stretch and shear
-    Reorder     ///< vertices and faces in random order
+    Reorder,    ///< vertices and faces in random order
+    Taubin,     ///< smoothing without shrinking
+    Loop,       ///< subdivision that smooths
+    Sqrt3,      ///< subdivision that smooths, of other faces
+    Mirror,     ///< the mirror image
+    Plate       ///< copies side by side
 };
 
 /// All attacks, in the order of the enumeration.

@@ -10,4 +10,9 @@ namespace vcg_ext {
 /// its neighbours, all at once. At a border too, where the surface therefore shrinks. Gives the new positions.
 [[nodiscard]] Points smooth(const Surface& surface, double lambda, int iterations, const Progress& progress = {});
 
+/// Smoothing without shrinking (Taubin 1995): each step by `lambda` towards the neighbours' mean is followed by one of
+/// 1.06 lambda away from it. Gives the new positions.
+[[nodiscard]] Points smooth_by_taubin(const Surface& surface, double lambda, int iterations,
+                                      const Progress& progress = {});
+
 } // namespace vcg_ext
