@@ -18,7 +18,15 @@ mpl.use("Agg")
 plt.rcParams.update({"font.size": 9, "axes.titlesize": 9, "figure.constrained_layout.use": True})
 
 # The family gives colour (its brightness differs too) and marker; variance is dashed and hollow.
-FAMILIES = {"L-M": ("#08306b", "o"), "QSP": ("#d95f0e", "s"), "Cho": ("#636363", "^"), "Pro": ("#1b7837", "D")}
+FAMILIES = {
+    "Layered": ("#762a83", "P"),
+    "Waves": ("#000000", "v"),
+    "L-M": ("#08306b", "o"),
+    "QSP": ("#d95f0e", "s"),
+    "Cho": ("#636363", "^"),
+    "Pro": ("#1b7837", "D"),
+    "Spectral": ("#b2182b", "X"),
+}
 OTHERS = [("#000000", "v"), ("#08306b", "o"), ("#d95f0e", "s"), ("#1b7837", "D"), ("#636363", "^"), ("#762a83", "P")]
 LABELS = {
     "amount": "amount",

@@ -6,8 +6,10 @@ import json
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
-# The thesis' names of the methods: the plugin's Method and Statistic.
+# The thesis' names of the methods, and ours: the plugin's Method and Statistic.
 METHODS = {
+    "Layered": ("Layered", "Mean"),
+    "Waves": ("Waves", "Mean"),
     "L-MMean": ("L-M", "Mean"),
     "L-MVar": ("L-M", "Variance"),
     "QSPMean": ("QSP", "Mean"),

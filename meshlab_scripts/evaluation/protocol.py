@@ -6,11 +6,13 @@ title, about, meshes, keys, trim
                  from the centre
 [[experiments]]  name; lists of methods, bits, strengths or limits (the strongest mark that keeps them), attacks;
                  nulls: how many keys to look for in the unmarked mesh; align = true: frames under the attacks;
-                 meshes, trim where they differ from the protocol's
+                 meshes, trim where they differ from the protocol's;
+                 published.WHOSE.ATTACK: the bit error rates that somebody else had, in the order of its amounts
 [[figures]]      name, title, experiment; series: an attack's name, or none for the marks themselves;
                  x, y (or ys), panels, lines: columns of the results; where: values of columns
 [[tables]]       name, title, experiment, rows; columns: label, value, scale, digits, over (the label of the column
-                 that this one is also given relative to) and values of columns; published: rows of the thesis
+                 that this one is also given relative to) and values of columns, or each: a column like this for
+                 each of the experiment's methods; published: rows of the thesis
 """
 
 import itertools
@@ -28,10 +30,10 @@ FIELDS = {field.name for field in fields(Job)}
 # What each part of the file must have, and what it may have.
 PROTOCOL = {"title", "meshes", "keys", "experiments"}, {"about", "trim", "attacks", "figures", "tables"}
 ATTACK = {"attack"}, {"amounts", "iterations", "unit"}
-MARKS = {"name", "methods", "bits"}, {"strengths", "limits", "attacks", "nulls", "meshes", "trim"}
+MARKS = {"name", "methods", "bits"}, {"strengths", "limits", "attacks", "nulls", "meshes", "trim", "published"}
 ALIGNMENT = {"name", "align", "attacks"}, {"meshes"}
 FIGURE = {"name", "title", "experiment", "x"}, {"series", "y", "ys", "panels", "lines", "label", "where"}
-TABLE = {"name", "title", "experiment", "rows", "columns"}, {"published", "timed"}
+TABLE = {"name", "title", "experiment", "rows"}, {"columns", "each", "published", "timed"}
 COLUMN_OPTIONS = {"label", "value", "scale", "digits", "over"}
 COLUMN = {"label", "value"}, COLUMN_OPTIONS | FIELDS
 
@@ -80,7 +82,7 @@ class Protocol:
         return cases
 
     def _grid(self, experiment: Spec, inputs: Spec) -> list[tuple[str, Job]]:
-        attacks = [(name, attack) for name in experiment.get("attacks", []) for attack in self._amounts(name)]
+        attacks = [(name, attack) for name in experiment.get("attacks", []) for attack in _amounts(self.attacks[name])]
         keys = range(self.keys)
         if experiment.get("align"):
             return [(name, Job(kind="align", key=key, **inputs, **attack)) for key in keys for name, attack in attacks]
@@ -98,11 +100,24 @@ class Protocol:
             jobs += [("null", Job(kind="null", key=key, **mark)) for key in range(experiment.get("nulls", 0))]
         return jobs
 
-    def _amounts(self, name: str) -> list[Spec]:
-        spec = self.attacks[name]
-        grid = itertools.product(spec.get("amounts", [-1]), spec.get("iterations", [-1]))
-        fixed = {"attack": spec["attack"], "unit": spec.get("unit", "")}
-        return [{**fixed, "amount": float(amount), "iterations": iterations} for amount, iterations in grid]
+    def published(self, experiment: str) -> dict[str, dict[tuple[str, float, int], float]]:
+        """Whose detection ratio is known after which attack of an experiment: its name, amount and iterations."""
+        spec = next(spec for spec in self.experiments if spec["name"] == experiment)
+        return {
+            whose: {
+                (name, attack["amount"], attack["iterations"]): 1 - error
+                for name, errors in rates.items()
+                for attack, error in zip(_amounts(self.attacks[name]), errors, strict=True)
+            }
+            for whose, rates in spec.get("published", {}).items()
+        }
+
+
+def _amounts(spec: Spec) -> list[Spec]:
+    """What an attack's jobs have of it, for each amount and number of iterations."""
+    grid = itertools.product(spec.get("amounts", [-1]), spec.get("iterations", [-1]))
+    fixed = {"attack": spec["attack"], "unit": spec.get("unit", "")}
+    return [{**fixed, "amount": float(amount), "iterations": iterations} for amount, iterations in grid]
 
 
 def read_protocol(path: Path) -> Protocol:
@@ -125,8 +140,16 @@ def read_protocol(path: Path) -> Protocol:
         attacks=spec.get("attacks", {}),
         experiments=spec["experiments"],
         figures=spec.get("figures", []),
-        tables=spec.get("tables", []),
+        tables=[_with_columns(table, spec["experiments"]) for table in spec.get("tables", [])],
     )
+
+
+def _with_columns(table: Spec, experiments: list[Spec]) -> Spec:
+    """A table whose columns are written out."""
+    if "columns" in table:
+        return table
+    methods = next(spec["methods"] for spec in experiments if spec["name"] == table["experiment"])
+    return {**table, "columns": [{"label": method, "method": method, **table["each"]} for method in methods]}
 
 
 def _check(spec: Spec) -> None:
@@ -139,6 +162,11 @@ def _check(spec: Spec) -> None:
         _check_keys(where, experiment, ALIGNMENT if experiment.get("align") else MARKS)
         _check_names(where, "attack", experiment.get("attacks", []), attacks)
         _check_names(where, "method", experiment.get("methods", []), METHODS)
+        for whose, rates in experiment.get("published", {}).items():
+            _check_names(f"{where}, published.{whose}", "attack", rates, attacks)
+            for name, errors in rates.items():
+                if len(errors) != len(_amounts(attacks[name])):
+                    raise ProtocolError(f"{where}, published.{whose}.{name} needs one rate for each of the amounts.")
         if not {"align", "strengths", "limits", "nulls"} & experiment.keys():
             raise ProtocolError(f"{where} has nothing to do: give it strengths, limits or nulls.")
     experiments = [experiment["name"] for experiment in spec["experiments"]]
@@ -153,7 +181,9 @@ def _check(spec: Spec) -> None:
         where = f"table {table.get('name', '?')!r}"
         _check_keys(where, table, TABLE)
         _check_names(where, "experiment", [table["experiment"]], experiments)
-        for column in table["columns"]:
+        if ("columns" in table) == ("each" in table):
+            raise ProtocolError(f"{where} needs either columns or each.")
+        for column in table.get("columns", []):
             _check_keys(f"{where}, column {column.get('label', '?')!r}", column, COLUMN)
 
 

@@ -13,6 +13,12 @@ from .protocol import Case, Protocol
 from .results import collect, split_times
 from .store import Store
 
+ROBUSTNESS = {
+    "detection_ratio": ("Detection ratio", 2),
+    "log10_p": ("log10 p of the message that is known", 1),
+    "log10_p_alone": ("log10 p of what the key alone reads", 1),
+}
+
 
 def write_report(protocol: Protocol, cases: list[Case], site: Site, store: Store, folder: Path) -> None:
     """Writes into the folder. All but times.csv, the timed tables and so report.md is the same in every run."""
@@ -36,7 +42,7 @@ def write_report(protocol: Protocol, cases: list[Case], site: Site, store: Store
             parts.append(f"## {spec['name']}: {spec['title']}\n\n![{spec['title']}](figures/{path.name})")
     for experiment in dict.fromkeys(experiment["name"] for experiment in protocol.experiments):
         parts += _errors_of_detection(experiment, frame, folder)
-        parts += _robustness(experiment, frame, folder)
+        parts += _robustness(protocol, experiment, frame, folder)
     if not failed.empty:
         counts = failed.groupby(["kind", "mesh", "method", "error"]).size()
         lines = [["kind", "mesh", "method", "error", "jobs"], *([*map(str, at), str(n)] for at, n in counts.items())]
@@ -60,12 +66,14 @@ def _errors_of_detection(experiment: str, frame: pd.DataFrame, folder: Path) -> 
     ]
 
 
-def _robustness(experiment: str, frame: pd.DataFrame, folder: Path) -> list[str]:
-    text = tables.robustness(frame, experiment)
-    if not text:
-        return []
-    _write(folder / "tables" / f"robustness-{experiment}.md", text)
-    return [f"## Detection ratio after every attack ({experiment}), mean over the keys", text]
+def _robustness(protocol: Protocol, experiment: str, frame: pd.DataFrame, folder: Path) -> list[str]:
+    parts = []
+    for value, (title, digits) in ROBUSTNESS.items():
+        published = protocol.published(experiment) if value == "detection_ratio" else {}
+        if text := tables.robustness(frame, experiment, value, digits, published):
+            _write(folder / "tables" / f"robustness-{experiment}-{_file(value)}.md", text)
+            parts += [f"## {title} after every attack ({experiment}), mean over the keys", text]
+    return parts
 
 
 def _provenance(protocol: Protocol, cases: list[Case], site: Site, frame: pd.DataFrame) -> str:
@@ -83,7 +91,7 @@ def _provenance(protocol: Protocol, cases: list[Case], site: Site, frame: pd.Dat
 
 
 def _file(name: str) -> str:
-    return name.lower().replace(" ", "-")
+    return name.lower().replace(" ", "-").replace("_", "-")
 
 
 def _write(path: Path, text: str) -> None:

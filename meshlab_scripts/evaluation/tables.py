@@ -77,8 +77,13 @@ def _cell(column: Spec, ours: tuple[float, float], thesis: tuple[float, float]) 
     return " ".join(filter(None, texts)) or "–"
 
 
-def robustness(frame: pd.DataFrame, experiment: str) -> str:
-    """Mean detection ratio of every attack and amount, a column for each method; empty where there are no attacks."""
+Published = dict[str, dict[tuple[str, float, int], float]]  # whose, and what after which attack
+
+
+def robustness(frame: pd.DataFrame, experiment: str, value: str, digits: int, published: Published) -> str:
+    """Mean of a result after every attack and amount, a column for each method and for each who published it; empty
+    where there are no attacks.
+    """
     chosen = frame[(frame["experiment"] == experiment) & (frame["kind"] == "attack") & (frame["error"] == "")]
     choices = chosen.groupby("method")[["bits", "strength", "limits"]].nunique().max()
     varied = list(choices[choices > 1].index)
@@ -86,10 +91,12 @@ def robustness(frame: pd.DataFrame, experiment: str) -> str:
     methods = [method for method in METHODS if method in set(chosen["method"])]
     if not methods:
         return ""
-    lines = [["mesh", *varied, "attack", "amount", "iterations", *methods]]
-    for at, row in chosen.pivot_table(index=keys, columns="method", values="detection_ratio").iterrows():
-        labels = ["" if value == -1 else f"{value:g}" if isinstance(value, float) else str(value) for value in at]
-        lines.append([*labels, *("–" if math.isnan(row[method]) else f"{row[method]:.2f}" for method in methods)])
+    lines = [["mesh", *varied, "attack", "amount", "iterations", *methods, *published]]
+    for at, row in chosen.pivot_table(index=keys, columns="method", values=value).iterrows():
+        labels = ["" if label == -1 else f"{label:g}" if isinstance(label, float) else str(label) for label in at]
+        cells = [row.get(method, math.nan) for method in methods]
+        cells += [known.get(at[-3:], math.nan) for known in published.values()]
+        lines.append([*labels, *("–" if math.isnan(cell) else f"{cell:.{digits}f}" for cell in cells)])
     return grid(lines)
 
 

@@ -16,7 +16,9 @@ from . import frames
 from .filters import Numbers, apply, opened, save
 from .jobs import METHODS, Job, Site, mesh_file
 
-STRENGTHS = {"Mean": (0.002, 0.45), "Variance": (0.002, 0.3), "Spectral": (2.0, 1000.0)}  # what the plugin takes
+# What the plugin takes.
+STRENGTHS = {"Mean": (0.002, 0.45), "Variance": (0.002, 0.3), "Spectral": (2.0, 1000.0), "Waves": (1e-5, 2e-3),
+             "Layered": (1e-5, 2e-3)}  # fmt: skip
 STEPS = 20  # of the search for a strength, at most
 CLOSE = 0.01  # it ends where the mark is this near to its limit
 
@@ -87,7 +89,12 @@ def _carriers(job: Job) -> dict[str, Value]:
 
 def _read(meshes: pymeshlab.MeshSet, job: Job) -> Numbers:
     found = apply(meshes, plugin.DETECT, expected=job.message, **_carriers(job))
-    return {"detection_ratio": found["detection_ratio"], "p_value": found["p_binomial"]}
+    return {
+        "detection_ratio": found["detection_ratio"],
+        "p_value": found["p_binomial"],
+        "log10_p": math.log10(found["p_value"]),  # key and message known
+        "log10_p_alone": math.log10(found["p_message"]),  # the key alone
+    }
 
 
 def _attack(meshes: pymeshlab.MeshSet, job: Job) -> Numbers:

@@ -31,6 +31,7 @@ def main(
     bits: Annotated[int, typer.Option(help="Carriers; 0: as many as are recommended.")] = 0,
     draws: Annotated[int, typer.Option(help="Of a model and of those who average.")] = 20,
     together: Annotated[list[int], typer.Option(help="How many average.")] = [2, 3, 5],  # noqa: B006
+    originals: Annotated[bool, typer.Option("--originals", help="With the unmarked models at hand.")] = False,
     recipients: Annotated[int, typer.Option(help="In a ledger that is searched once.")] = 100_000,
 ) -> None:
     """Prints what came out of each draw, and the time of a trace in a large ledger."""
@@ -43,7 +44,8 @@ def main(
         files = [meshes / f"{model}.off" for model in models]
         shop = Shop(folder, files, RECIPIENTS * len(files), cluster.scheduler_address, Settings(bits=bits))
         for count in together:
-            counts = Counter(_averaged(shop, folder, models[n % len(models)], count, draw) for n in range(draws))
+            drawn = (_averaged(shop, folder, models[n % len(models)], count, draw) for n in range(draws))
+            counts = Counter(_said(shop, mean, buyers, originals) for mean, buyers in drawn)
             console.print(f"{count} averaged: {dict(counts)}")
         copy, buyer, model = shop.copies[0]
         _alone(console, copy, shop)
@@ -55,17 +57,22 @@ def main(
                       f"{time.process_time() - began:.2f} s of CPU")  # fmt: skip
 
 
-def _averaged(shop: Shop, folder: Path, model: str, count: int, draw: np.random.Generator) -> str:
-    """What is said of the mean of some copies of a model."""
+def _averaged(shop: Shop, folder: Path, model: str, count: int, draw: np.random.Generator) -> tuple[Path, list[str]]:
+    """The mean of some copies of a model, and whose these are."""
     copies = [(file, buyer) for file, buyer, of in shop.copies if of.name == f"{model}.off"]
     chosen = [copies[n] for n in draw.choice(len(copies), count, replace=False)]
     shapes = [trimesh.load_mesh(file, process=False) for file, _ in chosen]
     mean = trimesh.Trimesh(np.mean([shape.vertices for shape in shapes], axis=0), shapes[0].faces, process=False)
     mean.export(folder / "found.ply")
-    answer, name = shop.answer(folder / "found.ply")
+    return folder / "found.ply", [buyer for _, buyer in chosen]
+
+
+def _said(shop: Shop, found: Path, buyers: list[str], originals: bool) -> str:
+    """What is said of whose copy it is."""
+    answer, name = shop.answer(found, originals)
     if name is None:
         return str(answer)
-    return "one of them" if name in [buyer for _, buyer in chosen] else "AN INNOCENT"
+    return "one of them" if name in buyers else "AN INNOCENT"
 
 
 def _alone(console: Console, copy: Path, shop: Shop) -> None:

@@ -23,6 +23,7 @@ from evaluation.curves import binomial_tail, equal_error_rate, false_positives  
 from evaluation.frames import WAYS, frames, shift  # noqa: E402
 from evaluation.jobs import Job, Site  # noqa: E402
 from evaluation.protocol import ProtocolError, read_protocol  # noqa: E402
+from evaluation.tables import robustness  # noqa: E402
 
 
 def command(protocol: str | Path, work: Path) -> list[str]:
@@ -55,10 +56,11 @@ def smoke(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, pd.DataFrame]
 def test_smoke_is_complete(smoke: tuple[Path, pd.DataFrame]) -> None:
     work, results = smoke
     assert (results["error"] == "").all()
-    # 2 methods x (2 keys x (itself, 4 attacks) + 5 searches in the unmarked mesh)
-    assert len(results) == 2 * (2 * 5 + 5)
+    # 2 methods x (2 keys x (itself, 4 attacks) + 5 searches in the unmarked mesh); the layers: 2 attacks, 2 searches
+    assert len(results) == 2 * (2 * 5 + 5) + (2 * 3 + 2)
     report = (work / "smoke" / "report.md").read_text(encoding="utf-8")
-    for heading in ("Table 5.3", "Figure 5.8", "False positives and false negatives", "Detection ratio after every"):
+    for heading in ("Table 5.3", "Figure 5.8", "False positives and false negatives", "Detection ratio after every",
+                    "log10 p of the message that is known", "log10 p of what the key alone reads"):  # fmt: skip
         assert f"## {heading}" in report
     for picture in ("figure-5.8", "errors-robustness"):
         assert f"figures/{picture}.png" in report
@@ -69,7 +71,9 @@ def test_smoke_obeys_what_must_hold(smoke: tuple[Path, pd.DataFrame]) -> None:
     _, results = smoke
     unattacked = results[(results["kind"] == "embed") | (results["series"] == "similarity")]
     assert (unattacked["detection_ratio"].astype(float) == 1).all()
-    for row in results.itertuples():
+    assert (unattacked["log10_p"] < -6).all()
+    assert (results.loc[results["kind"] == "null", "log10_p"] > -6).all()
+    for row in results[results["method"] != "Layered"].itertuples():  # of one layer, and of one way to read it
         exact = binomial_tail(int(row.bits), float(row.detection_ratio))
         assert math.isclose(row.p_value, exact, rel_tol=1e-4), row  # the file has six digits
 
@@ -83,7 +87,7 @@ def test_killed_run_goes_on_where_it_was(smoke: tuple[Path, pd.DataFrame], tmp_p
             time.sleep(0.05)
         os.kill(process.pid, signal.SIGKILL)
     before = stored(tmp_path)
-    assert 12 <= len(before) < 30
+    assert 12 <= len(before) < 38
     evaluate("smoke", tmp_path)
     # Times are among the results: a job that had been done again would differ.
     assert stored(tmp_path)[: len(before)] == before
@@ -193,6 +197,12 @@ def test_protocols_are_read() -> None:
         ('experiment = "e"\nx', 'experiment = "d"\nx', ["figure 'f'", "'d'"]),
         ("rows =", "row =", ["table 't'", "lacks rows"]),
         ("value =", "values =", ["column 'l'", "lacks value"]),
+        ("columns = [", 'each = { value = "mrms" }\ncolumns = [', ["table 't'", "either columns or each"]),
+        (
+            "strengths =",
+            "published.Cho.noise = [0.1, 0.2]\nstrengths =",
+            ["published.Cho.noise", "each of the amounts"],
+        ),
         ("keys = 1", "keys = ", ["line 4"]),
     ],
 )
@@ -206,6 +216,18 @@ def test_a_slip_in_a_protocol_is_refused(tmp_path: Path, right: str, wrong: str,
         read_protocol(path)
     for text in [str(path), *texts]:
         assert text in str(refused.value)
+
+
+def test_published_rates_stand_beside_ours() -> None:
+    protocol = read_protocol(SCRIPTS / "protocols" / "smoke.toml")
+    assert protocol.published("layers") == {"Cho": {("loop", -1.0, -1): 0.84}}
+    rows = [
+        {"experiment": "robustness", "kind": "attack", "error": "", "mesh": "m", "method": "L-MMean", "series": name,
+         "bits": 64, "strength": 0, "limits": "", "amount": -1.0, "iterations": -1, "detection_ratio": 0.75}
+        for name in ("loop", "similarity")
+    ]  # fmt: skip
+    text = robustness(pd.DataFrame(rows), "robustness", "detection_ratio", 2, protocol.published("layers"))
+    assert text.splitlines()[2:] == ["| m | loop |  |  | 0.75 | 0.84 |", "| m | similarity |  |  | 0.75 | – |"]
 
 
 def test_a_report_of_nothing_says_so(tmp_path: Path) -> None:
