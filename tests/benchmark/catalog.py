@@ -22,8 +22,9 @@ from rich import print as show
 MESHES = Path(__file__).resolve().parents[2] / "build" / "data" / "meshes"
 MODELS = [
     "head", "ellipe0.003", "elk", "camel", "bear", "blobby", "blobby_3cc", "knot", "hand", "bear_bis",
-    "rotor", "cactus", "three_peaks", "elephant", "triceratops", "cow", "knot1", "retinal", "anchor_dense", "femur",
-    "dino", "homer", "knot2", "b9_mesh", "holes", "fandisk", "lion", "lion-head", "fandisk_large", "diplodocus",
+    "mannequin-devil", "cactus", "three_peaks", "elephant", "triceratops", "cow", "knot1", "retinal", "anchor_dense",
+    "femur", "dino", "homer", "knot2", "b9_mesh", "holes", "fandisk", "lion", "lion-head", "fandisk_large",
+    "diplodocus",
 ]  # fmt: skip
 OPTIONS = ["models", "who.csv", "out", "--json", "--key-file", "secret.key"]
 

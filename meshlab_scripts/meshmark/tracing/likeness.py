@@ -16,7 +16,7 @@ SAME, ALIKE = 0.02, 0.1
 COARSER = 0.25  # of the model's faces; what has fewer was simplified beyond what a mark is sure to outlive
 ROUGHER, SMOOTHER = 0.02, -0.03  # of the area; noise and smoothing that erase marks change it by more
 # A mark on a coarse model outlives little: only where that is as it was, but for place and size, would one be read.
-FINE = 8000  # faces
+FINE = 20_000  # faces
 STILL = 1e-3  # of the moments
 EVEN, SANDED = 1.8e-4, -5e-4  # of the area: noise of .1 % and 9 bits add more, and mostly a mark less
 
