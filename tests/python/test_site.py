@@ -153,7 +153,7 @@ def test_every_block_runs(name: str, tmp_path: Path) -> None:
         first, second, third = printed
         assert first.count("(c) Jane") >= 3
         assert "present: the mesh carries '(c) Jane'" in second
-        assert "present" not in third
+        assert "not found: no mark of this key" in third
 
 
 def test_paths_that_pages_name_are_there() -> None:
