@@ -41,25 +41,30 @@ def section(source: str, heading: str, part: Iterable[str] = ()) -> str:
 
 
 def table(
-    source: str, heading: str, rows: Iterable[str] = (), columns: Iterable[str] = (), number: Iterable[str] = ("1",)
+    source: str,
+    heading: str,
+    head: Iterable[str] = (),
+    number: Iterable[str] = ("1",),
+    rows: Iterable[str] = (),
+    columns: Iterable[str] = (),
 ) -> str:
-    """A table of a section: of its rows those with a cell, of its columns those with a head, that begins with one of
-    the given words. The first column stays always.
+    """A table of a section: of those with a head that begins with the words of `head` the one of this number. Of its
+    rows those with a cell, of its columns those with a head, that begins with one of the given words. The first column
+    stays always.
 
     :raises LookupError: where there is no such table, or nothing is left of it
     """
-    tables = re.findall(r"(?:^\|.*\n?)+", section(source, heading), re.MULTILINE)
-    place = int(*number) - 1
-    if place >= len(tables):
-        raise LookupError(f"Section '{heading}' of {source} has {len(tables)} tables.")
-    head, line, *body = ([cell.strip() for cell in row.strip("|").split("|")] for row in tables[place].splitlines())
-    starts = tuple(rows)
+    found = [_cells(one) for one in re.findall(r"(?:^\|.*\n?)+", section(source, heading), re.MULTILINE)]
+    found = [one for one in found if all(any(cell.startswith(word) for cell in one[0]) for word in head)]
+    if len(found) < int(*number):
+        raise LookupError(f"Section '{heading}' of {source} has no such table.")
+    names, line, *body = found[int(*number) - 1]
+    starts, heads = tuple(rows), tuple(columns)
     body = [row for row in body if not starts or any(cell.startswith(starts) for cell in row)]
-    heads = tuple(columns)
-    kept = [i for i, cell in enumerate(head) if i == 0 or not heads or cell.startswith(heads)]
+    kept = [i for i, cell in enumerate(names) if i == 0 or not heads or cell.startswith(heads)]
     if not body or (len(kept) == 1 and heads):
-        raise LookupError(f"Nothing is left of table {place + 1} of '{heading}' in {source}.")
-    return "\n".join("| " + " | ".join(row[i] for i in kept) + " |" for row in (head, line, *body))
+        raise LookupError(f"Nothing is left of a table of '{heading}' in {source}.")
+    return "\n".join("| " + " | ".join(row[i] for i in kept) + " |" for row in (names, line, *body))
 
 
 def file(path: str, language: str) -> str:
@@ -90,6 +95,10 @@ def relinked(text: str, page: str) -> str:
         return f"{mark}[{words}]({posixpath.relpath(target, posixpath.dirname(page) or '.')})"
 
     return _outside_code(LINK, replacement, text)
+
+
+def _cells(table: str) -> list[list[str]]:
+    return [[cell.strip() for cell in row.removeprefix("|").removesuffix("|").split("|")] for row in table.splitlines()]
 
 
 def _lines(source: str) -> Iterator[tuple[str, bool]]:

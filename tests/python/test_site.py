@@ -142,7 +142,7 @@ def test_an_excerpt_that_is_not_there_is_an_error() -> None:
 
 def test_a_table_keeps_the_rows_and_columns_that_are_asked_for() -> None:
     assert excerpts.table(
-        "vcg_ext/README.md", "The methods of vertex norms", rows=["Waves"], columns=["L-M", "Cho"], number=["2"]
+        "vcg_ext/README.md", "The methods of vertex norms", rows=["Waves"], head=["first"], columns=["L-M", "Cho"]
     ).splitlines()[::2] == ["| first | L-M | Cho |", "| Waves | -18 | -7, -14 |"]
 
 

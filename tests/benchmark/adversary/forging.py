@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What it costs to find a key under which a mesh that nobody marked reads as marked: an ambiguous claim by search.
+"""Whether a mesh that its owner never marked can be made to read as the owner's, or anybody's.
 
-Tries keys of the adversary's on an unmarked mesh, for the quickest method, and says how small p got, what a key costs,
-and what that makes for p < 1e-6.
+By transplanting: which side each shell's mean is on can be seen in a marked mesh without the key; another mesh whose
+means are pushed to the same sides may read as marked with that key. By search: tries keys of the adversary's on an
+unmarked mesh, and says how small p got, what a key costs, and what that makes for p < 1e-6.
 
     build/venv/bin/python tests/benchmark/adversary/forging.py --keys 200
 """
@@ -12,7 +13,7 @@ import ctypes
 import time
 
 import numpy as np
-from shapes import log_p, opened
+from shapes import Shape, embed, likeliest_shells, log_p, mrms, norms_of, opened, shells, with_means
 
 SALT, PASSES, MEMORY, ARGON2ID = b"filter_watermark", 2, 64 << 20, 2  # as vcg_ext/key/key.cpp has them
 
@@ -23,8 +24,12 @@ def main() -> None:
     parser.add_argument("--mesh", default="homer")
     parser.add_argument("--keys", type=int, default=200)
     parser.add_argument("--method", default="L-M")
+    parser.add_argument("--owners", type=int, default=3, help="keys of owners that are tried so")
+    parser.add_argument("--onto", default="fandisk", help="the mesh that a mark is transplanted to")
     options = parser.parse_args()
     shape = opened(options.mesh)
+    for i in range(options.owners):
+        transplant(shape, opened(options.onto), options.method, f"owner {i}")
     log_p(shape, options.method, "warm-up")
     begin = time.process_time()
     logs = np.array([log_p(shape, options.method, f"key {i}") for i in range(options.keys)])
@@ -36,6 +41,18 @@ def main() -> None:
     print(
         f"p < 1e-6 by search: {1e6 * each / 3600:.0f} hours of one core, {1e6 * kdf / 3600:.0f} for derivations alone"
     )
+
+
+def transplant(shape: Shape, onto: Shape, method: str, key: str) -> None:
+    """Prints what the owner's key reads of a mesh that got the sides of the shells from a marked one."""
+    marked = embed(shape, method, key)
+    _, seen = likeliest_shells(marked)
+    means = 0.5 + 0.1 * np.sign(seen.means)
+    forged = onto
+    for _ in range(3):  # the centre moves along
+        forged = with_means(forged, shells(norms_of(forged), seen.count, seen.trim), means)
+    print(f"transplanted: {seen.count} shells, trim {seen.trim:.4f}, MRMS {mrms(forged, onto):.1e};", end=" ")
+    print(f"the owner's key reads p 10^{log_p(forged, method, key):.1f}")
 
 
 def derivation_seconds(times: int = 10) -> float:

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 from meshmark.errors import Refused
-from shapes import METHODS, Array, Shape, attacked, centre, embed, likeliest_shells, log_p, mrms, opened
+from shapes import METHODS, Shape, attacked, centre, embed, likeliest_shells, log_p, mrms, opened, with_means
 
 KEY = "correct horse battery staple"
 FOUND = -6
@@ -77,7 +77,7 @@ def waves(marked: Shape, _: str) -> Iterator[Shape]:
 def other_key(marked: Shape, method: str) -> Iterator[Shape]:
     """A mark of the same method under a key of the adversary's, ever stronger."""
     usual = USUAL.get(method, 0.1)
-    return (embed(marked, method, "the adversary's", "id:1", usual * part) for part in (1, 2, 4, 8))
+    return (embed(marked, method, "the adversary's", "id:1", usual * part) for part in (1, 2, 4))
 
 
 def levelling(marked: Shape, method: str) -> Iterator[Shape]:
@@ -88,45 +88,11 @@ def levelling(marked: Shape, method: str) -> Iterator[Shape]:
     if method not in NORMS:
         return
     _, shells = likeliest_shells(marked)
-    origin = centre(marked)
-    outward = marked.points - origin
-    norms = np.linalg.norm(outward, axis=1)
-    outward /= norms[:, None]
-    place = shells.place.copy()
     draws = np.random.default_rng(1)
-    for number in range(shells.number.max() + 1):
-        inside = shells.number == number
-        if inside.any():
-            target = 0.5 + draws.normal() / np.sqrt(12 * inside.sum())
-            place[inside] = _mapped(shells.place[inside], target)
-    wanted = (place - shells.place) * shells.width
-    slide = _least_move(marked, outward)
+    samples = np.bincount(shells.number[shells.number >= 0], minlength=shells.count)
+    means = 0.5 + draws.normal(size=shells.count) / np.sqrt(12 * np.maximum(samples, 1))
     for part in (0.5, 0.75, 1, 1.5):
-        away = marked.points + part * wanted[:, None] * slide - origin
-        exact = (norms + part * wanted) / np.linalg.norm(away, axis=1)
-        yield marked.at(origin + exact[:, None] * away)
-
-
-def _mapped(values: Array, mean: float) -> Array:
-    """x^beta with that mean."""
-    low, high = 0.05, 20.0
-    for _ in range(40):
-        beta = np.sqrt(low * high)
-        low, high = (beta, high) if np.mean(values**beta) > mean else (low, beta)
-    return values**beta
-
-
-def _least_move(shape: Shape, outward: Array) -> Array:
-    """Per vertex the move that changes its norm by one and leaves the surface least; no longer than 5."""
-    normals = shape.face_normals
-    areas = np.linalg.norm(normals, axis=1)
-    normals /= np.maximum(areas, 1e-30)[:, None]
-    form = shape.on_vertices(areas[:, None, None] * normals[:, :, None] * normals[:, None, :])
-    form /= np.maximum(shape.on_vertices(areas), 1e-30)[:, None, None]
-    moves = np.linalg.solve(0.98 * form + 0.02 * np.eye(3), outward[:, :, None])[:, :, 0]
-    moves /= (moves * outward).sum(axis=1)[:, None]
-    length = np.linalg.norm(moves, axis=1)[:, None]
-    return np.where(length > 5, outward, moves)
+        yield with_means(marked, shells, means, part)
 
 
 WAYS: dict[str, Way] = {

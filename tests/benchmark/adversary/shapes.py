@@ -100,15 +100,21 @@ def mrms(shape: Shape, reference: Shape) -> float:
 class Shells:
     """Shells of vertex norms as an adversary tries them."""
 
+    count: int
+    trim: float
     number: NDArray[np.int64]  # per vertex; -1 outside
     place: Array  # per vertex, in [0, 1] within its shell
-    means: Array  # per shell, in standard errors from 1/2
+    means: Array  # per shell, in standard errors from 1/2; 0 where it is empty
     width: float
 
 
 def centre(shape: Shape) -> Array:
     weights = shape.on_vertices(np.linalg.norm(shape.face_normals, axis=1))
     return weights @ shape.points / weights.sum()
+
+
+def norms_of(shape: Shape) -> Array:
+    return np.linalg.norm(shape.points - centre(shape), axis=1)
 
 
 def shells(norms: Array, count: int, trim: float) -> Shells:
@@ -119,8 +125,8 @@ def shells(norms: Array, count: int, trim: float) -> Shells:
     inside = number >= 0
     samples = np.bincount(number[inside], minlength=count)
     sums = np.bincount(number[inside], weights=(place - number)[inside], minlength=count)
-    means = (sums / np.maximum(samples, 1) - 0.5) * np.sqrt(12 * np.maximum(samples, 1))
-    return Shells(number, place - number, means[samples > 0], (high - low) / count)
+    means = (sums / np.maximum(samples, 1) - 0.5) * np.sqrt(12 * samples)
+    return Shells(count, trim, number, place - number, means, (high - low) / count)
 
 
 def bimodality(means: Array) -> float:
@@ -140,9 +146,46 @@ def bimodality(means: Array) -> float:
 
 def likeliest_shells(shape: Shape) -> tuple[float, Shells]:
     """The shells that look the most marked, and how much."""
-    norms = np.linalg.norm(shape.points - centre(shape), axis=1)
-    tried = (shells(norms, count, trim) for count in CARRIERS for trim in TRIMS)
-    return max(((bimodality(one.means), one) for one in tried), key=lambda found: found[0])
+    tried = (shells(norms_of(shape), count, trim) for count in CARRIERS for trim in TRIMS)
+    return max(((bimodality(one.means[one.means != 0]), one) for one in tried), key=lambda found: found[0])
+
+
+def with_means(shape: Shape, shells: Shells, means: Array, part: float = 1) -> Shape:
+    """The shape with other means of its shells, or `part` of the way there. Vertices slide along the surface as far as
+    they can, as they do in L-M.
+    """
+    place = shells.place.copy()
+    for number in range(shells.count):
+        inside = shells.number == number
+        if inside.any():
+            place[inside] = _mapped(shells.place[inside], means[number])
+    origin, norms = centre(shape), norms_of(shape)
+    outward = (shape.points - origin) / norms[:, None]
+    change = part * (place - shells.place) * shells.width
+    away = shape.points + change[:, None] * _least_move(shape, outward) - origin
+    return shape.at(origin + ((norms + change) / np.linalg.norm(away, axis=1))[:, None] * away)
+
+
+def _mapped(values: Array, mean: float) -> Array:
+    """x^beta with that mean."""
+    low, high = 0.05, 20.0
+    for _ in range(40):
+        beta = np.sqrt(low * high)
+        low, high = (beta, high) if np.mean(values**beta) > mean else (low, beta)
+    return values**beta
+
+
+def _least_move(shape: Shape, outward: Array) -> Array:
+    """Per vertex the move that changes its norm by one and leaves the surface least; no longer than 5."""
+    normals = shape.face_normals
+    areas = np.linalg.norm(normals, axis=1)
+    normals /= np.maximum(areas, 1e-30)[:, None]
+    form = shape.on_vertices(areas[:, None, None] * normals[:, :, None] * normals[:, None, :])
+    form /= np.maximum(shape.on_vertices(areas), 1e-30)[:, None, None]
+    moves = np.linalg.solve(0.98 * form + 0.02 * np.eye(3), outward[:, :, None])[:, :, 0]
+    moves /= (moves * outward).sum(axis=1)[:, None]
+    length = np.linalg.norm(moves, axis=1)[:, None]
+    return np.where(length > 5, outward, moves)
 
 
 @contextmanager
