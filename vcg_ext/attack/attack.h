@@ -59,10 +59,10 @@ struct AttackOptions {
 };
 
 struct AttackReport {
-    Attack attack{};
-    double amount = 0;  ///< as used; 0 where the attack has none
-    int iterations = 0; ///< as used; 0 where the attack has none
-    std::uint64_t seed = 0;
+    Attack attack{};             ///< its name
+    double amount = 0;           ///< as used; 0 where the attack has none
+    int iterations = 0;          ///< as used; 0 where the attack has none
+    std::uint64_t seed = 0;      ///< as given
     int vertices = 0;            ///< afterwards
     int faces = 0;               ///< afterwards
     bool positions_only = false; ///< vertices and faces kept their number and order: writing positions back is enough

@@ -17,19 +17,19 @@ struct DistortionOptions {
 };
 
 struct DistortionReport {
-    double mrms = 0;          ///< (2.16): the larger of the two RMS distances
-    double hausdorff = 0;     ///< largest distance of any sample or vertex to the other surface, both directions
-    double mean = 0;          ///< the larger of the two mean distances
-    double mrms_relative = 0; ///< over the reference's bounding-box diagonal
-    double hausdorff_relative = 0;
-    double mean_relative = 0;
-    std::optional<double> snr_db; ///< signal to noise of the vertices; empty where nothing moved (it is infinite)
-    std::optional<double> msdm;   ///< perceptual distance in [0, 1.34], see perceptual.h; measure() always fills it
+    double mrms = 0;               ///< the larger of the two RMS distances (thesis, 2.16)
+    double hausdorff = 0;          ///< largest distance of any sample or vertex to the other surface, both directions
+    double mean = 0;               ///< the larger of the two mean distances
+    double mrms_relative = 0;      ///< over the reference's bounding-box diagonal
+    double hausdorff_relative = 0; ///< likewise
+    double mean_relative = 0;      ///< likewise
+    std::optional<double> snr_db;  ///< signal to noise of the vertices; empty where nothing moved (it is infinite)
+    std::optional<double> msdm;    ///< perceptual distance in [0, 1.34], see perceptual.h
     std::optional<double> volume_change; ///< of the enclosed volume, relative; empty where a mesh encloses none
     double area_change = 0;              ///< relative
     int samples = 0;                     ///< per direction, as used
     std::vector<double> distance;        ///< per vertex of the measured mesh: to the reference's surface
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings;   ///< what a user should know
 };
 
 /// Compares `measured` with `reference`. Same input, same answer: on any machine, at any number of threads.
