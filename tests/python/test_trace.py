@@ -108,6 +108,22 @@ def test_a_copy_that_is_not_in_the_ledger_names_nobody(shops: tuple[Shop, Shop],
     assert "id:5" in result.sentence
 
 
+def test_a_mark_in_another_object_names_nobody(shops: tuple[Shop, Shop], tmp_path: Path) -> None:
+    """Marks of vertex norms can be copied by who has a marked copy; the shape cannot be made to fit."""
+    shop = shops[0]
+    with Ledger(shop.folder / "ledger.sqlite") as ledger:
+        ((_, messages),) = ledger.candidates().items()
+    body(3).apply_scale([1, 1, 2]).export(tmp_path / "other.stl")
+    for message in messages.values():
+        meshmark.embed(
+            tmp_path / "other.stl", tmp_path / "framed.stl", message=f"id:{message}", key=shop.key, method="L-M"
+        )
+        result = shop.trace(tmp_path / "framed.stl")
+        assert (result.answer, result.recipient) == (Answer.CANNOT_TELL, None), result.sentence
+        assert result.p < 1e-6
+        assert "another object" in result.sentence
+
+
 @pytest.mark.skipif(not plugin.reads_with_original(), reason="the plugin has no filter that reads with an original")
 def test_a_part_is_read_with_the_original(shops: tuple[Shop, Shop], tmp_path: Path) -> None:
     shop = shops[0]
