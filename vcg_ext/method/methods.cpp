@@ -119,7 +119,7 @@ const std::vector<MethodRow>& all_methods()
          {{Method::Geodesic, 0}},
          true,
          false,
-         false,
+         true,
          1.5,
          alpha,
          plan_geodesic,
