@@ -3,8 +3,10 @@
 #include "vcg_ext/geometry/chebyshev.h"
 
 #include "support/load.h"
+#include "support/shapes.h"
 #include "vcg_ext/base/parallel.h"
 #include "vcg_ext/carrier/patches.h"
+#include "vcg_ext/geometry/rings.h"
 #include "vcg_ext/method/spectral.h"
 #include "vcg_ext/watermark/secrets.h"
 #include "vcg_ext/watermark/watermark.h"
@@ -117,6 +119,75 @@ TEST(Chebyshev, IsTheSameAtAnyNumberOfThreads)
     const Points five = apply(usual_filter(graph), graph, surface.points);
     set_threads(0);
     EXPECT_EQ(one, five);
+}
+
+/// The series term by term, as it is written.
+Points plainly(const HighPass& filter, const EdgeGraph& graph, const Points& x)
+{
+    const auto product = [&](const Points& y) {
+        Points result(y.size());
+        for (int v = 0; v < graph.vertices(); ++v)
+            result[v] = 2 / filter.bound * laplacian_row(graph, y, v) - y[v];
+        return result;
+    };
+    Points before = x;
+    Points now = product(x);
+    Points sum(x.size());
+    for (std::size_t v = 0; v < x.size(); ++v)
+        sum[v] = filter.coefficients[0] * x[v] + filter.coefficients[1] * now[v];
+    for (std::size_t k = 2; k < filter.coefficients.size(); ++k) {
+        const Points twice = product(now);
+        for (std::size_t v = 0; v < x.size(); ++v) {
+            before[v] = 2 * twice[v] - before[v];
+            sum[v] += filter.coefficients[k] * before[v];
+        }
+        before.swap(now);
+    }
+    return sum;
+}
+
+/// Long enough for many stretches of blocks, which the terms are taken over at a time.
+Surface strip()
+{
+    Body body = body_of(shapes::triangular_grid(6, 0.06, 0.002));
+    number_by_rings(body);
+    return body.surface;
+}
+
+TEST(Chebyshev, SeveralTermsAtATimeAreTheSeries)
+{
+    const Surface surface = strip();
+    const EdgeGraph graph = edge_graph(surface);
+    for (const int degree : {1, 2, 21, 24}) {
+        const HighPass filter = high_pass(cutoff, laplacian_bound(graph), degree);
+        set_threads(3);
+        const Points blocked = apply(filter, graph, surface.points);
+        set_threads(1);
+        EXPECT_EQ(apply(filter, graph, surface.points), blocked);
+        set_threads(0);
+        const Points plain = plainly(filter, graph, surface.points);
+        for (std::size_t v = 0; v < plain.size(); ++v)
+            ASSERT_LT((blocked[v] - plain[v]).norm(), 1e-12) << degree;
+    }
+}
+
+TEST(Chebyshev, TheBandOfAFewMovesIsThatOfAll)
+{
+    const Surface surface = strip();
+    const EdgeGraph graph = edge_graph(surface);
+    const HighPass filter = high_pass(cutoff, laplacian_bound(graph), 24);
+    const std::vector<int> moved = {5, 700, 701, 40000};
+    Points all(surface.points.size(), Point::Zero());
+    Points moves;
+    for (const int v : moved) {
+        moves.emplace_back(surface.points[v] - Point(1, 2, 3));
+        all[v] = moves.back();
+    }
+    Points band(all.size(), Point::Zero());
+    add_band_of_moves(filter, graph, moved, moves, band);
+    const Points expected = apply(filter, graph, all);
+    for (std::size_t v = 0; v < all.size(); ++v)
+        ASSERT_LT((band[v] - expected[v]).norm(), 1e-14);
 }
 
 TEST(Chebyshev, MarkedPatchesHaveTheShapesOfTheExactProjector)

@@ -29,4 +29,11 @@ struct HighPass {
 /// thread alone, so the result is the same at any number of threads.
 [[nodiscard]] Points apply(const HighPass& filter, const EdgeGraph& graph, const Points& x);
 
+/// What moves of some vertices do to a band: adds p(L) of them. It reaches as many edges far as the degree is high, so
+/// where few vertices move it costs less than the whole band.
+/// \param band  of each vertex
+/// \param moved ascending  \param moves of each of these
+void add_band_of_moves(const HighPass& filter, const EdgeGraph& graph, const std::vector<int>& moved,
+                       const Points& moves, Points& band);
+
 } // namespace vcg_ext

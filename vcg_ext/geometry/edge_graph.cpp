@@ -26,4 +26,39 @@ EdgeGraph edge_graph(const Surface& surface)
     return graph;
 }
 
+std::vector<int> within_rings(const EdgeGraph& graph, std::vector<int> vertices, int rings)
+{
+    std::vector<char> seen(graph.vertices(), 0);
+    for (const int v : vertices)
+        seen[v] = 1;
+    std::size_t begin = 0;
+    for (int ring = 0; ring < rings; ++ring) {
+        const std::size_t end = vertices.size();
+        for (; begin < end; ++begin)
+            for (const int *w = graph.begin(vertices[begin]), *last = graph.end(vertices[begin]); w != last; ++w) {
+                if (!seen[*w])
+                    vertices.push_back(*w);
+                seen[*w] = 1;
+            }
+    }
+    std::sort(vertices.begin(), vertices.end());
+    return vertices;
+}
+
+EdgeGraph part_of(const EdgeGraph& graph, const std::vector<int>& vertices)
+{
+    std::vector<int> number(graph.vertices(), -1);
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        number[vertices[i]] = static_cast<int>(i);
+    EdgeGraph part;
+    part.first.push_back(0);
+    for (const int v : vertices) {
+        for (const int* w = graph.begin(v); w != graph.end(v); ++w)
+            if (number[*w] >= 0)
+                part.neighbour.push_back(number[*w]);
+        part.first.push_back(static_cast<int>(part.neighbour.size()));
+    }
+    return part;
+}
+
 } // namespace vcg_ext

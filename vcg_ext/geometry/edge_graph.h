@@ -18,4 +18,11 @@ struct EdgeGraph {
 
 [[nodiscard]] EdgeGraph edge_graph(const Surface& surface);
 
+/// The vertices that are at most `rings` edges away from one of `vertices`, ascending.
+[[nodiscard]] std::vector<int> within_rings(const EdgeGraph& graph, std::vector<int> vertices, int rings);
+
+/// The graph of some vertices, numbered as they stand there, and the edges between them.
+/// \param vertices ascending
+[[nodiscard]] EdgeGraph part_of(const EdgeGraph& graph, const std::vector<int>& vertices);
+
 } // namespace vcg_ext

@@ -109,8 +109,12 @@ std::vector<Arrival> march(const Surface& surface, const VertexFaces& around, co
             const int others[2] = {t[(corner + 1) % 3], t[(corner + 2) % 3]};
             for (int k = 0; k < 2; ++k)
                 if (distance[others[k]] == never)
-                    reach(others[k], [&, v = v](Arrival& a) {
-                        pass_face(surface, distance, v, others[1 - k], surface.points[others[k]], a);
+                    reach(others[k], [&, v = v, when = when](Arrival& a) {
+                        const Point& at = surface.points[others[k]];
+                        const int third = others[1 - k];
+                        pass_edge({surface.points[v], when}, at, a);
+                        if (distance[third] < never) // whose edge the front took when it came there
+                            pass_between(Flat(surface.points[v], surface.points[third], at), when, distance[third], a);
                     });
         }
     }

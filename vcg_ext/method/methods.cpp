@@ -2,6 +2,7 @@
 #include "methods.h"
 
 #include "../base/text.h"
+#include "../geometry/rings.h"
 #include "geodesic.h"
 #include "norms.h"
 #include "spectral.h"
@@ -38,6 +39,7 @@ const std::vector<MethodRow>& all_methods()
          {{Method::Waves, 0}, {Method::Spectral, 4}, {Method::LM, 0.1}},
          false,
          true,
+         true,
          0,
          displacement,
          nullptr,
@@ -53,6 +55,7 @@ const std::vector<MethodRow>& all_methods()
          {{Method::Waves, 0}},
          false,
          true,
+         false,
          0,
          displacement,
          plan_waves,
@@ -67,6 +70,7 @@ const std::vector<MethodRow>& all_methods()
          "norms",
          {{Method::LM, 0}},
          true,
+         false,
          false,
          1.5,
          alpha,
@@ -83,6 +87,7 @@ const std::vector<MethodRow>& all_methods()
          {{Method::QSP, 0}},
          true,
          false,
+         false,
          1.5,
          alpha,
          plan_norms,
@@ -97,6 +102,7 @@ const std::vector<MethodRow>& all_methods()
          "norms",
          {{Method::Cho, 0}},
          true,
+         false,
          false,
          1.5,
          alpha,
@@ -113,6 +119,7 @@ const std::vector<MethodRow>& all_methods()
          {{Method::Geodesic, 0}},
          true,
          false,
+         true,
          1.5,
          alpha,
          plan_geodesic,
@@ -128,6 +135,7 @@ const std::vector<MethodRow>& all_methods()
          {{Method::Spectral, 0}},
          false,
          false,
+         true,
          0,
          squash,
          plan_spectral,
@@ -146,6 +154,14 @@ const MethodRow& row_of(Method method)
         if (row.method == method)
             return row;
     throw Error("There is no such method. Choose one of the list.");
+}
+
+Body body_for(const MethodRow& method, const Surface& surface)
+{
+    Body body = body_of(surface);
+    if (method.walks)
+        number_by_rings(body);
+    return body;
 }
 
 MarkFrame find_copy(const MethodRow& method, const Copy& copy, const Plan& plan)

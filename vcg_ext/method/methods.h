@@ -2,6 +2,7 @@
 #pragma once
 #include "../base/progress.h"
 #include "../carrier/reading.h"
+#include "../geometry/body.h"
 #include "../payload/message.h"
 #include "../placement/cover.h"
 #include "copy.h"
@@ -29,6 +30,7 @@ struct MethodRow {
     std::vector<std::pair<Method, double>> layers;
     bool has_statistic; ///< whether Statistic matters
     bool is_smooth;     ///< moves the surface by a smooth field: how well planes stay planes is reported
+    bool walks;         ///< goes from neighbour to neighbour most of its time: see number_by_rings()
     /// Mean soft value, in standard errors, that no unmarked mesh has; 0 where that tells nothing.
     double unmarked_strength;
     StrengthRange (*strength)(Statistic statistic);
@@ -54,6 +56,9 @@ struct MethodRow {
     Marking (*embed)(const Cover& cover, const Plan& plan, const Bits& coded, const PlacementOptions& options,
                      const Progress& progress);
 };
+
+/// body_of(), numbered as the method is the fastest on it.
+[[nodiscard]] Body body_for(const MethodRow& method, const Surface& surface);
 
 /// MethodRow::find_copy, or what stands for it.
 [[nodiscard]] MarkFrame find_copy(const MethodRow& method, const Copy& copy, const Plan& plan);

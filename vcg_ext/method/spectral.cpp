@@ -23,6 +23,7 @@ constexpr int layers = 2;          // the thesis' kappa
 constexpr double cutoff = 2;       // the highest 90 % of a mesh's eigenvalues
 constexpr double high_share = 0.7; // the same, as the thesis prints it
 constexpr double printed_threshold = 2.25;
+constexpr double few = 0.2; // of the vertices: where no more moved in a round, they move no cut to speak of
 
 } // namespace
 
@@ -41,10 +42,15 @@ Points about(const Point& centre, const Points& points)
     return result;
 }
 
-Points filtered(const EdgeGraph& graph, const Points& points)
+HighPass filter_of(const EdgeGraph& graph)
 {
     const double bound = laplacian_bound(graph);
-    return apply(high_pass(cutoff, bound, high_pass_degree(bound)), graph, points);
+    return high_pass(cutoff, bound, high_pass_degree(bound));
+}
+
+Points filtered(const EdgeGraph& graph, const Points& points)
+{
+    return apply(filter_of(graph), graph, points);
 }
 
 Points exact_bands(const EdgeGraph& graph, const Points& points, const std::vector<std::vector<int>>& patches)
@@ -78,6 +84,13 @@ Frame checked_frame(const Points& vertices, const SolidTopology& topology)
     return frame;
 }
 
+void measure_shapes(PatchReading& reading)
+{
+    reading.shapes.resize(reading.vertices.size());
+    for_chunks(static_cast<int>(reading.vertices.size()), 1,
+               [&](int k, int) { reading.shapes[k] = patch_shape(reading.band, reading.vertices[k]); });
+}
+
 PatchReading read_with(const Surface& surface, const SolidTopology& topology, const EdgeGraph& graph, const Plan& plan,
                        const Frame& frame)
 {
@@ -91,9 +104,7 @@ PatchReading read_with(const Surface& surface, const SolidTopology& topology, co
     reading.vertices = patch_vertices(reading.patches);
     const Points local = about(frame.centre, surface.points);
     reading.band = as_printed ? exact_bands(graph, local, reading.vertices) : filtered(graph, local);
-    reading.shapes.resize(reading.vertices.size());
-    for_chunks(static_cast<int>(reading.vertices.size()), 1,
-               [&](int k, int) { reading.shapes[k] = patch_shape(reading.band, reading.vertices[k]); });
+    measure_shapes(reading);
     reading.threshold = as_printed ? std::log(printed_threshold) : best_threshold(reading.shapes);
     return reading;
 }
@@ -250,6 +261,27 @@ void check_patches(const PatchReading& reading, const std::vector<int>& bits, st
                              std::to_string(vertices_of_a_shape) + " are the fewest that have a shape.");
 }
 
+/// The vertices that are elsewhere.
+std::vector<int> moved_vertices(const Points& before, const Points& now)
+{
+    std::vector<int> moved;
+    for (std::size_t v = 0; v < now.size(); ++v)
+        if (now[v] != before[v])
+            moved.push_back(static_cast<int>(v));
+    return moved;
+}
+
+/// Takes up what moves do to the bands; the cuts stay.
+void read_moves(const HighPass& filter, const EdgeGraph& graph, const std::vector<int>& moved, const Points& before,
+                const Points& now, PatchReading& reading)
+{
+    Points moves;
+    for (const int v : moved)
+        moves.emplace_back(now[v] - before[v]);
+    add_band_of_moves(filter, graph, moved, moves, reading.band);
+    measure_shapes(reading);
+}
+
 } // namespace
 
 Plan plan_spectral(const Key& key, const CarrierOptions& options)
@@ -295,9 +327,16 @@ Marking embed_spectral(const Cover& cover, const Plan& plan, const Bits& coded, 
         proposal.points = points;
         return proposal;
     };
+    const HighPass filter = filter_of(graph);
+    Points last = surface.points; // that were read
     const auto read = [&](const Points& stored, int) {
-        const Surface marked{stored, surface.triangles};
-        reading = read_with(marked, topology, graph, plan, turned_like(checked_frame(stored, topology), first));
+        const std::vector<int> moved = moved_vertices(last, stored);
+        if (plan.options.as_printed || moved.size() > few * stored.size())
+            reading = read_with({stored, surface.triangles}, topology, graph, plan,
+                                turned_like(checked_frame(stored, topology), first));
+        else
+            read_moves(filter, graph, moved, last, stored, reading);
+        last = stored;
         return margins_of(reading, wanted(), aim);
     };
     LoopResult loop = closed_loop(options.max_rounds, rounded_to_float, propose, read, "Shaping patches", progress);

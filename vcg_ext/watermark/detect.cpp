@@ -346,7 +346,7 @@ DetectReport detect_whole(const Surface& surface, const Key& key, const DetectOp
     options.carriers.check();
     Stopwatch watch;
     report(progress, 0, "Finding carriers");
-    const Body body = body_of(surface);
+    const Body body = body_for(row_of(options.carriers.method), surface);
     DetectReport result = detect_body(body, key, options, share, progress);
     tell_pieces(body, result);
     result.seconds["detection"] = watch.lap();
@@ -358,7 +358,7 @@ DetectReport detect(const Surface& surface, const Key& key, const DetectOptions&
     options.carriers.check();
     Stopwatch watch;
     report(progress, 0, "Finding carriers");
-    const Body body = body_of(surface);
+    const Body body = body_for(row_of(options.carriers.method), surface);
     const std::vector<Part> pieces =
         body.pieces - body.loose_pieces > 1 ? pieces_to_look_at(body.surface) : std::vector<Part>();
     DetectReport result =

@@ -207,7 +207,7 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     const EmbedOptions options = completed(wanted, surface.points.size());
     report(progress, 0, "Finding carriers");
     Stopwatch watch;
-    const Body body = body_of(surface);
+    const Body body = body_for(row_of(options.carriers.method), surface);
     EmbedReport result;
     result.method = options.carriers.method;
     result.statistic = options.carriers.statistic;
