@@ -15,7 +15,14 @@ struct Copy {
 /// Where its vertices stand on the original, laid on it: no feet where that is missing.
 [[nodiscard]] std::vector<Foot> feet_on_original(const Copy& copy, const Surface& laid);
 
-/// The copy laid on its original: in the original's place, at its size, its faces looking the same way.
-[[nodiscard]] Surface laid_on_original(const Copy& copy);
+/// A copy laid on its original: in the original's place, at its size, its faces looking the same way.
+[[nodiscard]] Surface laid_on_original(const Surface& surface, const Registration& registration);
+[[nodiscard]] inline Surface laid_on_original(const Copy& copy)
+{
+    return laid_on_original(copy.surface, copy.registration);
+}
+
+/// The same by a given pose.
+[[nodiscard]] Surface laid_by(const Eigen::Affine3d& pose, const Surface& surface, const Registration& registration);
 
 } // namespace vcg_ext

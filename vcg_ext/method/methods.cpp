@@ -45,6 +45,8 @@ const std::vector<MethodRow>& all_methods()
          nullptr,
          nullptr,
          nullptr,
+         nullptr,
+         nullptr,
          nullptr},
         {Method::Waves,
          "Waves",
@@ -60,6 +62,8 @@ const std::vector<MethodRow>& all_methods()
          read_by_waves,
          find_wave_copy,
          read_wave_copy,
+         certify_waves,
+         read_certified_waves,
          embed_by_waves},
         {Method::LM,
          "L-M",
@@ -75,6 +79,8 @@ const std::vector<MethodRow>& all_methods()
          read_norms,
          nullptr,
          nullptr,
+         certify_norms,
+         read_certified_norms,
          embed_norms<Radial::Sphere>},
         {Method::QSP,
          "QSP",
@@ -90,6 +96,8 @@ const std::vector<MethodRow>& all_methods()
          read_norms,
          nullptr,
          nullptr,
+         certify_norms,
+         read_certified_norms,
          embed_norms<Radial::Selective>},
         {Method::Cho,
          "Cho",
@@ -105,6 +113,8 @@ const std::vector<MethodRow>& all_methods()
          read_norms,
          nullptr,
          nullptr,
+         certify_norms,
+         read_certified_norms,
          embed_norms<Radial::Straight>},
         {Method::Geodesic,
          "Geodesic",
@@ -120,6 +130,8 @@ const std::vector<MethodRow>& all_methods()
          read_geodesic,
          find_geodesic_copy,
          read_geodesic_copy,
+         nullptr,
+         nullptr,
          embed_geodesic},
         {Method::Spectral,
          "Spectral",
@@ -135,6 +147,8 @@ const std::vector<MethodRow>& all_methods()
          read_spectral,
          find_spectral_copy,
          read_spectral_copy,
+         nullptr,
+         nullptr,
          embed_spectral},
     };
     return methods;
@@ -156,6 +170,14 @@ MarkFrame find_copy(const MethodRow& method, const Copy& copy, const Plan& plan)
 Readings read_copy(const MethodRow& method, const Copy& copy, const Plan& plan, const MarkFrame& frame)
 {
     return method.read_copy ? method.read_copy(copy, plan, frame) : method.read(laid_on_original(copy), plan, frame);
+}
+
+Readings read_certified(const MethodRow& method, const CertifiedCopy& copy, const Plan& plan)
+{
+    if (!method.read_certified)
+        throw Error(std::string(method.name) +
+                    " needs the original itself: give its layer as Original, and leave Certificate empty.");
+    return method.read_certified(copy, plan);
 }
 
 const char* name(Method method)

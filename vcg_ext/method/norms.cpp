@@ -6,6 +6,7 @@
 #include "../placement/fold_guard.h"
 #include "../placement/radial.h"
 #include "../placement/selective.h"
+#include "copy.h"
 
 #include <cmath>
 
@@ -200,6 +201,16 @@ MarkFrame find_norms(const Surface& surface, const Plan& /*plan*/)
 Readings read_norms(const Surface& surface, const Plan& plan, const MarkFrame& frame)
 {
     return read_carriers(shells(surface.points, std::get<ShellFrame>(frame), plan.trim, plan.options.bits), plan);
+}
+
+void certify_norms(const Surface& original, const Plan& plan, Certificate& certificate)
+{
+    certificate.shells = std::get<ShellFrame>(find_norms(original, plan));
+}
+
+Readings read_certified_norms(const CertifiedCopy& copy, const Plan& plan)
+{
+    return read_norms(laid_on_original(copy.surface, copy.registration), plan, certified(copy.certificate.shells));
 }
 
 template <Radial placement>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../placement/cover.h"
+#include "certificate.h"
 #include "scalar.h"
 
 namespace vcg_ext {
@@ -10,6 +11,9 @@ namespace vcg_ext {
 [[nodiscard]] Plan plan_norms(const Key& key, const CarrierOptions& options);
 [[nodiscard]] MarkFrame find_norms(const Surface& surface, const Plan& plan);
 [[nodiscard]] Readings read_norms(const Surface& surface, const Plan& plan, const MarkFrame& frame);
+
+void certify_norms(const Surface& original, const Plan& plan, Certificate& certificate);
+[[nodiscard]] Readings read_certified_norms(const CertifiedCopy& copy, const Plan& plan);
 
 /// How a vertex gets to its sphere.
 enum class Radial {
