@@ -38,7 +38,7 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
     options.carriers = read_carrier_options(values);
     options.expected = read_expected(values);
     const vcg_ext::Key key = read_key(values);
-    ReportFile file(values.getSaveFileName("Report"));
+    ReportFile file(values);
 
     const vcg_ext::DetectReport report = detect(read_surface(layer), key, options, progress);
     Json results = to_json(report);

@@ -19,7 +19,9 @@ QString info()
            "Only positions change, whatever is selected; colours, texture and quality stay where they were on the "
            "surface, and seams closed. The filter ends with a blind detection, and fails, with the mesh unchanged, "
            "where a bit would not read back.<br>"
-           "Keep the key secret, and note the recipe that the log ends with: detection needs it.<br>" +
+           "Keep the key secret, and note the recipe that the log ends with: detection needs it. <b>Certificate</b> names a "
+           "file of some 25 kB with what <b>Watermark: Detect with Original</b> needs of the original, for Waves, Layered and "
+           "the methods of vertex norms. The key is not in it, but the shape is: keep it as you would the original.<br>" +
            about_carrier_parameters() +
            "See <i>M. Luo, A. G. Bors</i>, Surface-preserving robust watermarking of 3-D shapes, IEEE Trans. Image "
            "Processing, 2011; <i>J.-W. Cho, R. Prost, H.-Y. Jung</i>, IEEE Trans. Signal Processing, 2007.";
@@ -35,6 +37,9 @@ RichParameterList parameters(const MeshDocument&)
                             "0 is usual: 1e-4 of the diagonal (Layered, Waves), 15 (Spectral), 0.1 (the others)."));
     list.addParam(RichBool("Rehearse", false, "Rehearse",
                            "Tries noise, simplification, smoothing, quantization on copies; says what it survives."));
+    list.addParam(
+        RichFileSave("Certificate", "", "*.wmc", "Certificate",
+                     "File for Watermark: Detect with Original where the original cannot be kept; or empty."));
     add_report_parameter(list);
     return list;
 }
@@ -75,13 +80,17 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
     options.placement.strength = read_number(values, "Strength");
     options.placement.storage = sizeof(Scalarm) == sizeof(float) ? vcg_ext::Storage::Float : vcg_ext::Storage::Double;
     const vcg_ext::Key key = read_key(values);
-    ReportFile file(values.getSaveFileName("Report"));
+    OutputFile certificate(values, "Certificate");
+    ReportFile file(values);
 
     const bool stretched = is_stretched(layer);
     vcg_ext::Surface surface = read_surface(layer);
     const vcg_ext::CornerValues shown = read_corner_values(layer);
     if (has_texture(layer))
         options.held = seams_to_hold(surface, shown);
+    std::string certified;
+    if (certificate.wanted())
+        certified = bytes_of(make_certificate(surface, key, options));
     const bool rehearses = values.getBool("Rehearse");
     const vcg_ext::EmbedReport embedded =
         embed_or_advise(surface, key, options, vcg_ext::within(progress, 0, rehearses ? 50 : 100));
@@ -101,6 +110,7 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
     if (const std::string others = about_other_layers(document, "carries the mark"); !others.empty())
         report["warnings"].push_back(others);
     NormalShares shares(faces_at_a_time);
+    certificate.write(certified);
     file.write(report); // the last that can fail
     write_positions(layer, surface.points, shares);
     if (carried)

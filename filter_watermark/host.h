@@ -36,6 +36,7 @@ struct HostResult {
 using HostInterface = MeshFilterInterface;
 using FilterArity = MeshFilterInterface::FILTER_ARITY;
 using RichFileSave = RichSaveFile;
+using RichFileOpen = RichOpenFile;
 
 #else
 

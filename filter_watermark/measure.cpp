@@ -40,7 +40,7 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
     vcg_ext::DistortionOptions options;
     options.samples = values.getInt("Samples");
     options.seed = read_seed(values);
-    ReportFile file(values.getSaveFileName("Report"));
+    ReportFile file(values);
 
     const std::array stretched = {is_stretched(reference), is_stretched(layer)};
     const bool with_matrices = stretched[0] || stretched[1];

@@ -272,31 +272,32 @@ QStringList to_lines(const Json& results)
     return lines;
 }
 
-ReportFile::ReportFile(const QString& path) : file_(path)
+OutputFile::OutputFile(const RichParameterList& values, const QString& parameter)
+    : parameter_(parameter), file_(values.getSaveFileName(parameter))
 {
-    if (path.isEmpty())
+    if (file_.fileName().isEmpty())
         return;
-    const QFileInfo target(path);
+    const QFileInfo target(file_.fileName());
     if (target.exists() && !target.isFile())
         fail("it is no file"); // renaming would put a file in a device's place
     if (!file_.open(QIODevice::WriteOnly))
         fail(file_.errorString());
 }
 
-void ReportFile::write(const Json& results)
+void OutputFile::write(const std::string& bytes)
 {
-    if (!file_.isOpen())
+    if (!wanted())
         return;
-    const std::string text = results.dump(2) + "\n";
-    file_.write(text.data(), qint64(text.size()));
+    file_.write(bytes.data(), qint64(bytes.size()));
     if (!file_.flush() || !file_.commit()) // commit() alone overlooks a disk that fills up in between
         fail(file_.errorString());
 }
 
-void ReportFile::fail(const QString& reason) const
+void OutputFile::fail(const QString& reason) const
 {
-    throw vcg_ext::Error("The report cannot be written to '" + file_.fileName().toStdString() +
-                         "': " + reason.toStdString() +
-                         ". Name a file in a folder that exists and that you may write to, or leave Report empty. "
-                         "The mesh is unchanged.");
+    throw vcg_ext::Error(
+        QString("The %1 cannot be written to '%2': %3. Name a file in a folder that exists and that you "
+                "may write to, or leave %4 empty. The mesh is unchanged.")
+            .arg(parameter_.toLower(), file_.fileName(), reason, parameter_)
+            .toStdString());
 }

@@ -21,17 +21,29 @@ std::map<std::string, HostValue> to_values(const Json& results);
 /// The same for the log: a line each, long lists by their range. Warnings are left out.
 QStringList to_lines(const Json& results);
 
-/// A report on its way to a file. Nothing of it is seen until all of it is there.
-class ReportFile {
+/// A result on its way to a file. Nothing of it is seen until all of it is there.
+class OutputFile {
 public:
-    /// \param path empty for no file  \throw Error where it cannot be written
-    explicit ReportFile(const QString& path);
+    /// \param parameter that names the file  \throw Error where it cannot be written
+    OutputFile(const RichParameterList& values, const QString& parameter);
+
+    /// Whether the parameter names a file at all.
+    bool wanted() const { return file_.isOpen(); }
 
     /// Puts the file in its place. \throw Error where the disk is full, say
-    void write(const Json& results);
+    void write(const std::string& bytes);
 
 private:
     [[noreturn]] void fail(const QString& reason) const;
 
+    QString parameter_;
     QSaveFile file_;
+};
+
+/// The results as JSON, in the file that the parameter Report names.
+class ReportFile : private OutputFile {
+public:
+    explicit ReportFile(const RichParameterList& values) : OutputFile(values, "Report") {}
+
+    void write(const Json& results) { OutputFile::write(results.dump(2) + "\n"); }
 };

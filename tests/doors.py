@@ -45,6 +45,7 @@ FILTERS: dict[str, tuple[str, dict[str, tuple[str, Value]]]] = {
             **CARRIERS,
             "Strength": ("RichFloat", 0),
             "Rehearse": ("RichBool", False),
+            "Certificate": ("RichSaveFile", ""),
             "Report": ("RichSaveFile", ""),
         },
     ),
@@ -62,6 +63,7 @@ FILTERS: dict[str, tuple[str, dict[str, tuple[str, Value]]]] = {
         {
             **CARRIERS,
             "Original": ("RichMesh", 0),
+            "Certificate": ("RichOpenFile", ""),
             "Expected": ("RichString", ""),
             "Report": ("RichSaveFile", ""),
         },
@@ -88,6 +90,8 @@ def script(filter_name: str, values: dict[str, Value]) -> str:
         if name in CHOICES:
             value = CHOICES[name].index(str(value))
             attributes["enum_cardinality"] = str(len(CHOICES[name]))
+        if kind == "RichOpenFile":
+            attributes["exts_cardinality"] = "0"
         attributes["value"] = str(value).lower() if isinstance(value, bool) else str(value)
         ElementTree.SubElement(element, "Param", attributes)
     return "<!DOCTYPE FilterScript>\n" + ElementTree.tostring(root, encoding="unicode")

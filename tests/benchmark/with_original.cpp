@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What detect_with_original() says after each chain of attacks: share of the carriers that match, log10 of p_value and
+// What detect_with_original(), or detect_with_certificate(), says after each chain of attacks: share of the carriers that match, log10 of p_value and
 // p_message, how the mesh was registered, seconds.
-// Usage: with_original METHOD [--strength 0] [--message TEXT] [--keys 1] [--row TEXT] [--unmarked] [--wrong-key]
-//                      [mesh.off ...]
+// Usage: with_original METHOD [--strength 0] [--message TEXT] [--keys 1] [--first-key 1] [--row TEXT] [--unmarked]
+//                      [--wrong-key] [--certificate] [mesh.off ...]
 
 #include "support/load.h"
 #include "vcg_ext/attack/attack.h"
@@ -73,6 +73,7 @@ struct Settings {
     const char* only = "";
     bool unmarked = false;
     bool wrong_key = false;
+    bool certificate = false;
 };
 
 void table(const std::string& mesh, const Settings& settings, int number)
@@ -82,16 +83,27 @@ void table(const std::string& mesh, const Settings& settings, int number)
     const Surface original = load(mesh);
     Surface stego = original;
     const EmbedReport made = embed(stego, key, settings.embed);
-    std::printf("%s, %s, key %d, %d carriers, MRMS %.2e\n", mesh.c_str(), name(made.method), number, made.carriers,
+    std::printf("%s, %s, key %d, %d carriers, MRMS %.2e", mesh.c_str(), name(made.method), number, made.carriers,
                 made.mrms_relative);
+    Certificate certificate;
+    if (settings.certificate) {
+        const std::string bytes = bytes_of(make_certificate(original, key, settings.embed));
+        certificate = certificate_of(bytes);
+        std::printf(", certificate of %zu bytes", bytes.size());
+    }
+    std::printf("\n");
     for (const Row& row : rows()) {
         if (!std::strstr(row.label, settings.only))
             continue;
         Surface suspect = settings.unmarked ? original : stego;
         try {
             spoil(suspect, row, static_cast<std::uint64_t>(number));
-            const DetectReport found = detect_with_original(suspect, original, settings.wrong_key ? reader : key,
-                                                            {settings.embed.carriers, {settings.embed.message}});
+            const DetectOptions options{settings.embed.carriers, {settings.embed.message}};
+            const Key& tried = settings.wrong_key ? reader : key;
+            certificate.key_check = key_check_of(tried); // another key is refused, but here it shall be tried
+            const DetectReport found = settings.certificate
+                                           ? detect_with_certificate(suspect, certificate, tried, options)
+                                           : detect_with_original(suspect, original, tried, options);
             const RegistrationReport& pose = *found.registration;
             std::printf("  %-38s %.3f p %6.1f message %6.1f  %s overlap %.2f residual %.1e rounds %d  %.2f + %.2f s\n",
                         row.label, found.detection_ratio.value_or(0), std::log10(found.p_value.value_or(1)),
@@ -131,6 +143,8 @@ try {
             settings.unmarked = true;
         else if (word == "--wrong-key")
             settings.wrong_key = true;
+        else if (word == "--certificate")
+            settings.certificate = true;
         else if (i == 1) {
             for (const MethodRow& row : all_methods())
                 if (word == row.name)

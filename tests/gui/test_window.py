@@ -89,10 +89,12 @@ class Window:
         """Goes through the fields with Tab, from the dialog's title buttons to Apply."""
         has_preview = filter_name == EMBED  # a box before the fields, where a filter changes the layer
         xdotool("key", *["Tab"] * (2 if has_preview else 1))
-        for name in FILTERS[filter_name][1]:
+        for name, (kind, _) in FILTERS[filter_name][1].items():
             xdotool("key", "Tab")
             if name in values and name != "Report":
                 xdotool("type", "--delay", "5", values[name])
+            if kind == "RichSaveFile" and name != "Report":
+                xdotool("key", "Tab")  # the button beside the field
         xdotool("key", "Tab")
         if "Report" in values:
             self.choose_file(values["Report"])

@@ -63,6 +63,42 @@ def test_the_dict_has_the_registration_and_meshes_stay(marked: Path) -> None:
     assert (meshes.current_mesh().vertex_matrix() == before).all()
 
 
+def test_a_certificate_takes_the_originals_place_through_every_door(piece: Path, tmp_path: Path) -> None:
+    asked: dict[str, Value] = {"Method": "Waves", "Key": KEY}
+    for name, door in DOORS.items():
+        certificate = tmp_path / name
+        door().run(EMBED, ORIGINAL, Certificate=str(certificate), Message=MESSAGE, **asked)
+        assert 20_000 < certificate.stat().st_size < 30_000, name
+        assert KEY.encode() not in certificate.read_bytes(), name
+        report = door().run(DETECT_WITH_ORIGINAL, piece, Certificate=str(certificate), Expected=MESSAGE, **asked)
+        assert report["present"] is True, name
+        assert report["registration"]["overlap"] > 0.97, name
+
+
+def test_bad_certificates_are_named(marked: Path, tmp_path: Path) -> None:
+    door = PyMeshLab()
+    whole = tmp_path / "whole"
+    door.run(EMBED, MESHES / "fandisk.off", Certificate=str(whole), Message=MESSAGE, Key=KEY, Method="Waves")
+    cut = tmp_path / "cut"
+    cut.write_bytes(whole.read_bytes()[:-100])
+    for path, text in ((cut, "cut off"), (marked, "no certificate"), (tmp_path / "none", "cannot be read")):
+        with pytest.raises(Refused, match=text):
+            door.run(DETECT_WITH_ORIGINAL, marked, Certificate=str(path), Key=KEY)
+    with pytest.raises(Refused, match="another key"):
+        door.run(DETECT_WITH_ORIGINAL, marked, Certificate=str(whole), Key="another")
+    meshes = pymeshlab.MeshSet()
+    meshes.load_new_mesh(str(ORIGINAL))
+    before = meshes.current_mesh().vertex_matrix()
+    for values, text in (
+        ({"Method": "Geodesic", "Certificate": str(tmp_path / "never")}, "needs the original itself"),
+        ({"Certificate": "/no/such/folder/certificate"}, "/no/such/folder/certificate"),
+    ):
+        with pytest.raises(Refused, match=text):
+            door.apply(meshes, EMBED, Message=MESSAGE, Key=KEY, **values)
+    assert not (tmp_path / "never").exists()
+    assert (meshes.current_mesh().vertex_matrix() == before).all()
+
+
 def test_bad_choices_of_the_original_are_named(marked: Path) -> None:
     door = PyMeshLab()
     with pytest.raises(Refused, match="current layer itself"):

@@ -389,6 +389,14 @@ private:
 
 } // namespace
 
+void to_unit_rms(Rows& columns)
+{
+    for (Eigen::Index c = 0; c < columns.cols(); ++c) {
+        const double rms = std::sqrt(columns.col(c).squaredNorm() / static_cast<double>(columns.rows()));
+        columns.col(c) /= std::max(rms, 1e-12);
+    }
+}
+
 std::vector<Demodulated> demodulate(const ResidualField& field, const Rows& waves, const Points& vectors,
                                     const std::vector<WaveAssumption>& assumptions)
 {

@@ -28,6 +28,9 @@ struct WaveAssumption {
     Eigen::MatrixXd per_bit;
 };
 
+/// Scales each column to RMS 1, so that no unit decides how well the equations are conditioned.
+void to_unit_rms(Rows& columns);
+
 struct Demodulated {
     double weight = 0; ///< posterior of the assumption; all sum to 1
     /// Log-likelihood ratio of each bit, positive for c = 1, within +-6: beyond, the model is not to be trusted.

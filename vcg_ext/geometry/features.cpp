@@ -162,17 +162,23 @@ double mean_nearness(const NearnessGrid& near, const Points& samples, const Eige
 
 } // namespace
 
-Features features_of(const SurfaceSamples& samples, double area, int count, const std::vector<double>& sizes,
+Points spread_points(const SurfaceSamples& samples, int count)
+{
+    Points some; // every third: farthest points of all take long, and gain nothing
+    for (std::size_t i = 0; i < samples.points.size(); i += 3)
+        some.push_back(samples.points[i]);
+    Points result;
+    for (const int i : farthest_points(some, count))
+        result.push_back(some[i]);
+    return result;
+}
+
+Features features_of(const SurfaceSamples& samples, double area, const Points& points, const std::vector<double>& sizes,
                      double side)
 {
     Features features;
+    features.points = points;
     const double share = area / static_cast<double>(samples.points.size());
-    Points some; // every third: farthest points of all take long, and gain nothing
-    std::vector<int> number;
-    for (std::size_t i = 0; i < samples.points.size(); i += 3)
-        some.push_back(samples.points[i]);
-    for (const int i : farthest_points(some, count))
-        features.points.push_back(some[i]);
     const int found = static_cast<int>(features.points.size());
     features.normals.resize(found);
     features.descriptors.assign(sizes.size(), std::vector<Descriptor>(found));

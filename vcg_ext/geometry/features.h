@@ -19,10 +19,13 @@ struct Features {
     std::vector<std::vector<Descriptor>> descriptors; ///< by size, then by point
 };
 
+/// Points that are spread over a surface, of its samples.
+[[nodiscard]] Points spread_points(const SurfaceSamples& samples, int count);
+
 /// \param samples of the surface, each for the same share of `area`
-/// \param count of points  \param sizes what the balls' radii are shares of, ascending: see Descriptor
+/// \param sizes what the balls' radii are shares of, ascending: see Descriptor
 /// \param side  -1 where the normals look in
-[[nodiscard]] Features features_of(const SurfaceSamples& samples, double area, int count,
+[[nodiscard]] Features features_of(const SurfaceSamples& samples, double area, const Points& points,
                                    const std::vector<double>& sizes, double side);
 
 /// How near to a surface a point is, roughly: distances at the middles of a grid's cells.

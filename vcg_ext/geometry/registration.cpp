@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "registration.h"
 
-#include "../base/pi.h"
-
 #include "edge_graph.h"
-#include "features.h"
 #include "icp.h"
-#include "moments.h"
 #include "size.h"
-#include "solid.h"
 #include "umbrella.h"
 
 #include <Eigen/SVD>
@@ -54,21 +49,6 @@ Scored scored(const FootSearch& original, double size, const Points& points, int
         result.overlap += foot.face < 0 ? 0 : 1.0 / count;
     }
     return result;
-}
-
-/// Centre, axes and square root of the area.
-Stand surface_stand(const Surface& surface)
-{
-    const Frame frame = area_frame(surface.points, surface.triangles);
-    return {frame.centre, frame.axes, std::sqrt(frame.measure)};
-}
-
-/// Centre, axes and ball radius of the solid; a length of 0 where there is none.
-Stand solid_stand(const Surface& surface)
-{
-    const SolidTopology topology = solid_topology(surface);
-    const Frame frame = solid_frame(solid_points(topology, surface.points), topology.triangles);
-    return {frame.centre, frame.axes, frame.measure == 0 ? 0 : ball_radius(frame)};
 }
 
 /// `from` laid on `to` in all eight ways, mirrored ones last.
@@ -125,14 +105,14 @@ std::vector<Scored> polished(const FootSearch& original, double size, const Surf
 
 /// The scales at which features are looked for: where vertices were kept, the ratio of edges is the scale; else steps
 /// from the least, at which a part of the original is as large as it.
-std::vector<double> scales_to_try(const Surface& original, const Surface& surface)
+std::vector<double> scales_to_try(const Likeness& original, const Surface& surface)
 {
     constexpr int steps = 13;
     constexpr double step = 1.1;
-    const double least = std::max(0.95 * bounding_diagonal(surface) / bounding_diagonal(original),
-                                  0.97 * std::sqrt(surface_area(surface) / surface_area(original)));
+    const double least = std::max(0.95 * bounding_diagonal(surface) / original.diagonal,
+                                  0.97 * std::sqrt(surface_area(surface)) / original.surface.length);
     std::vector<double> scales;
-    const double edges = mean_edge_length(surface) / mean_edge_length(original);
+    const double edges = original.edge > 0 ? mean_edge_length(surface) / original.edge : 0;
     if (edges > least * 0.9 && edges < least * std::pow(step, steps))
         scales.push_back(edges);
     for (int i = 0; i < steps; ++i)
@@ -140,22 +120,18 @@ std::vector<double> scales_to_try(const Surface& original, const Surface& surfac
     return scales;
 }
 
-/// By local shapes. \param side of the surface's normals
-std::vector<Scored> by_features(const FootSearch& original, double size, const Surface& surface,
-                                const SurfaceSamples& samples, double side, const Progress& progress)
+/// By local shapes.
+std::vector<Scored> by_features(const FootSearch& original, const Likeness& likeness, const Surface& surface,
+                                const SurfaceSamples& samples, const Progress& progress)
 {
-    constexpr int spread = 12000;
-    const double diagonal = bounding_diagonal(original.surface());
-    const std::vector<double> scales = scales_to_try(original.surface(), surface);
+    const double diagonal = likeness.diagonal;
+    const std::vector<double> scales = scales_to_try(likeness, surface);
     std::vector<double> sizes;
     for (const double scale : scales)
         sizes.push_back(scale * diagonal);
     report(progress, 0, "Comparing shapes");
-    const double outward = signed_volume(original.surface(), surface_stand(original.surface()).centre) < 0 ? -1 : 1;
-    const Features own = features_of(sample_surface(original.surface(), spread, "features"),
-                                     surface_area(original.surface()), 250, {diagonal}, outward);
-    const Features other =
-        features_of(sample_surface(surface, spread, "features"), surface_area(surface), 800, sizes, side);
+    const Features own = likeness.features ? *likeness.features : own_features(original.surface());
+    const Features other = features_to_match(surface, sizes);
     const NearnessGrid near(original, 0.05 * diagonal);
     const Points few(samples.points.begin(), samples.points.begin() + 150);
     std::vector<Scored> best;
@@ -168,13 +144,24 @@ std::vector<Scored> by_features(const FootSearch& original, double size, const S
         for (const FeaturePose& found : poses_by_features(own, other, s, scales[s], near, few, options))
             if (found.nearness > 0.35)
                 hypotheses.push_back({"features", found.pose});
-        for (const Scored& one : polished(original, size, samples, hypotheses))
+        for (const Scored& one : polished(original, likeness.size(), samples, hypotheses))
             if (best.empty() || one.score < best.front().score)
                 best = {one};
         if (!best.empty() && best.front().fits())
             break;
     }
     return best;
+}
+
+/// The farthest twentieth left out.
+double mean_of_most(std::vector<double> distances)
+{
+    std::sort(distances.begin(), distances.end());
+    distances.resize(distances.size() * 19 / 20);
+    double sum = 0;
+    for (const double distance : distances)
+        sum += distance;
+    return distances.empty() ? 0 : sum / static_cast<double>(distances.size());
 }
 
 /// How far samples lie from the original: mean distance, the farthest twentieth left out.
@@ -184,12 +171,7 @@ double spread_of(const FootSearch& original, const SurfaceSamples& samples, cons
     std::vector<double> distances;
     for (const Foot& foot : feet_of(original, samples.points, count, pose, reach))
         distances.push_back(foot.face < 0 ? reach : foot.distance);
-    std::sort(distances.begin(), distances.end());
-    const int kept = count * 19 / 20;
-    double sum = 0;
-    for (int i = 0; i < kept; ++i)
-        sum += distances[i];
-    return sum / kept;
+    return mean_of_most(std::move(distances));
 }
 
 /// Whether a stretched pose is still the same pose: where little is left of a copy, twelve unknowns may let it collapse.
@@ -208,9 +190,14 @@ double Registration::scale() const
     return 1 / std::cbrt(std::abs(pose.linear().determinant()));
 }
 
-Registrar::Registrar(const FootSearch& original) : original_(original), solid_(solid_stand(original.surface()))
+Registrar::Registrar(const FootSearch& original)
+    : original_(original), likeness_(likeness_of(original.surface())), size_(likeness_.size())
 {
-    size_ = solid_.length > 0 ? solid_.length : std::sqrt(surface_area(original.surface()) / (4 * pi));
+}
+
+Registrar::Registrar(const FootSearch& scales, const Impression& impression)
+    : original_(scales), impression_(&impression), likeness_(impression.likeness), size_(likeness_.size())
+{
 }
 
 void Registrar::refine(const Surface& surface, Registration& registration) const
@@ -226,7 +213,7 @@ void Registrar::refine(const Surface& surface, Registration& registration) const
     if (is_near(affine, registration.pose))
         registration.affine = affine;
     const double spread = spread_of(original_, samples, registration.affine, far * size_);
-    registration.residual = spread / bounding_diagonal(original_.surface());
+    registration.residual = spread / likeness_.diagonal;
     registration.stretched_less =
         spread_of(original_, samples, registration.pose, far * size_) / std::max(spread, 1e-300);
     const std::vector<Foot> feet =
@@ -242,8 +229,7 @@ double Registrar::follow(const Surface& surface, Registration& registration) con
     refine_pose(original_, samples, samples_to_judge, options, affine);
     if (is_near(affine, registration.pose))
         registration.affine = affine;
-    registration.residual =
-        spread_of(original_, samples, registration.affine, far * size_) / bounding_diagonal(original_.surface());
+    registration.residual = spread_of(original_, samples, registration.affine, far * size_) / likeness_.diagonal;
     return registration.residual;
 }
 
@@ -253,14 +239,13 @@ Registration Registrar::operator()(const Surface& surface, const Progress& progr
     report(progress, 0, "Registering");
     std::vector<Hypothesis> hypotheses{{"identity", Eigen::Affine3d::Identity()}};
     std::vector<Scored> found = polished(original_, size_, samples, hypotheses);
-    const Stand own = surface_stand(surface);
     if (found.empty() || !(found.front().score < sure)) {
-        add_poses("volume", solid_stand(surface), solid_, hypotheses);
-        add_poses("surface", own, surface_stand(original_.surface()), hypotheses);
+        add_poses("volume", solid_stand(surface), likeness_.solid, hypotheses);
+        add_poses("surface", surface_stand(surface), likeness_.surface, hypotheses);
         report(progress, 10, "Registering");
         found = polished(original_, size_, samples, hypotheses);
     }
-    if (found.empty() || !found.front().fits()) {
+    if (!impression_ && (found.empty() || !found.front().fits())) {
         const EdgeGraph graph = edge_graph(original_.surface());
         Surface smoothed = original_.surface();
         int rounds = 0;
@@ -276,9 +261,7 @@ Registration Registrar::operator()(const Surface& surface, const Progress& progr
         }
     }
     if (found.empty() || !found.front().fits()) {
-        const double side = signed_volume(surface, own.centre) < 0 ? -1 : 1;
-        const std::vector<Scored> other =
-            by_features(original_, size_, surface, samples, side, within(progress, 35, 90));
+        const std::vector<Scored> other = by_features(original_, likeness_, surface, samples, within(progress, 35, 90));
         if (!other.empty() && (found.empty() || other.front().score < found.front().score))
             found = other;
     }
@@ -289,8 +272,7 @@ Registration Registrar::operator()(const Surface& surface, const Progress& progr
         result.pose = result.affine = found.front().pose;
         result.by = found.front().by;
         result.overlap = found.front().overlap;
-        result.residual =
-            spread_of(original_, samples, result.pose, far * size_) / bounding_diagonal(original_.surface());
+        result.residual = spread_of(original_, samples, result.pose, far * size_) / likeness_.diagonal;
         return result;
     }
 
@@ -312,7 +294,40 @@ Registration Registrar::operator()(const Surface& surface, const Progress& progr
         if (&rival == &rivals.front() || one.residual < result.residual)
             result = one;
     }
+    if (impression_)
+        settle(surface, result);
     return result;
+}
+
+/// The other way round, from the original's points to the surface: scales lie off where the original is curved.
+void Registrar::settle(const Surface& surface, Registration& registration) const
+{
+    const FootSearch feet(surface);
+    const int count = static_cast<int>(impression_->points.size());
+    const SurfaceSamples samples{{}, impression_->points, impression_->normals};
+    const double size = size_ * registration.scale();
+    IcpOptions options{15, false, 0.06 * size, 0.02 * size, 0.2};
+    const auto refined = [&](const Eigen::Affine3d& pose) {
+        Eigen::Affine3d back = pose.inverse();
+        refine_pose(feet, samples, count, options, back);
+        return Eigen::Affine3d(back.inverse());
+    };
+    registration.pose = refined(registration.pose);
+    options.affine = true;
+    options.iterations = 20;
+    const Eigen::Affine3d affine = refined(registration.pose);
+    registration.affine = is_near(affine, registration.pose) ? affine : registration.pose;
+
+    const auto spread = [&](const Eigen::Affine3d& pose) {
+        std::vector<double> distances;
+        for (const Foot& foot : feet_of(feet, samples.points, count, pose.inverse(), far * size))
+            if (foot.face >= 0 && !foot.on_rim)
+                distances.push_back(foot.distance / registration.scale());
+        return mean_of_most(std::move(distances));
+    };
+    registration.residual = spread(registration.affine) / likeness_.diagonal;
+    registration.stretched_less =
+        spread(registration.pose) / std::max(registration.residual * likeness_.diagonal, 1e-300);
 }
 
 } // namespace vcg_ext

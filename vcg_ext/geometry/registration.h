@@ -2,7 +2,7 @@
 #pragma once
 #include "../base/progress.h"
 #include "feet.h"
-#include "sampling.h"
+#include "impression.h"
 
 #include <Eigen/Geometry>
 
@@ -28,21 +28,21 @@ struct Registration {
     [[nodiscard]] double scale() const;
 };
 
-/// A frame and a length, by which two surfaces can be laid on each other; a length of 0 where there is no such.
-struct Stand {
-    Point centre = Point::Zero();
-    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-    double length = 0;
-};
-
 /// Registers surfaces to one original. Never draws on anything but the two shapes; the work is bounded by counts of
 /// trials and not by a clock, so the answer is the same everywhere.
 class Registrar {
 public:
     /// \param original must outlive it
     explicit Registrar(const FootSearch& original);
-    /// \param size what size() shall be: of a surface like another
-    Registrar(const FootSearch& original, double size) : original_(original), size_(size) {}
+    /// \param like a registrar of the same original in another state: its size() and diagonal are taken
+    Registrar(const FootSearch& original, const Registrar& like)
+        : original_(original), likeness_(like.likeness_), size_(like.size_)
+    {
+    }
+    /// Of an original of which no more is left than an impression: coarse poses by its scales, the last step by its
+    /// points, brought to the faces of the copy.
+    /// \param scales of the impression  \param impression must outlive it
+    Registrar(const FootSearch& scales, const Impression& impression);
 
     /// Tries in this order, until one fits: the surface as it lies; principal axes of solid and of surface, each with
     /// all signs; the same against the original after 10 and 50 rounds of smoothing; local shapes (features.h).
@@ -68,8 +68,11 @@ public:
     [[nodiscard]] double size() const { return size_; }
 
 private:
+    void settle(const Surface& surface, Registration& registration) const;
+
     const FootSearch& original_;
-    Stand solid_; ///< of the original
+    const Impression* impression_ = nullptr;
+    Likeness likeness_;
     double size_ = 0;
 };
 

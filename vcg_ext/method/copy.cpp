@@ -13,16 +13,20 @@ namespace {
 constexpr double stretched = 1.1;
 } // namespace
 
-Surface laid_on_original(const Copy& copy)
+Surface laid_by(const Eigen::Affine3d& pose, const Surface& surface, const Registration& registration)
 {
-    const Registration& found = copy.registration;
-    const Eigen::Affine3d& pose = found.stretched_less > stretched ? found.affine : found.pose;
-    Surface laid = copy.surface;
+    Surface laid = surface;
     for_each_index(static_cast<int>(laid.points.size()), [&](int v) { laid.points[v] = pose * laid.points[v]; });
-    if (found.mirrored() != found.inside_out)
+    if (registration.mirrored() != registration.inside_out)
         for (Triangle& t : laid.triangles)
             std::swap(t[1], t[2]);
     return laid;
+}
+
+Surface laid_on_original(const Surface& surface, const Registration& registration)
+{
+    const bool affine = registration.stretched_less > stretched;
+    return laid_by(affine ? registration.affine : registration.pose, surface, registration);
 }
 
 std::vector<Foot> feet_on_original(const Copy& copy, const Surface& laid)

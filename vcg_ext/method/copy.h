@@ -18,7 +18,14 @@ struct Copy {
 /// Per vertex of the original whether that place is there in the copy laid on it, and was not cut off.
 [[nodiscard]] std::vector<char> places_that_are_left(const Copy& copy, const Surface& laid);
 
-/// The copy laid on its original: in the original's place, at its size, its faces looking the same way.
-[[nodiscard]] Surface laid_on_original(const Copy& copy);
+/// A copy laid on its original: in the original's place, at its size, its faces looking the same way.
+[[nodiscard]] Surface laid_on_original(const Surface& surface, const Registration& registration);
+[[nodiscard]] inline Surface laid_on_original(const Copy& copy)
+{
+    return laid_on_original(copy.surface, copy.registration);
+}
+
+/// The same by a given pose.
+[[nodiscard]] Surface laid_by(const Eigen::Affine3d& pose, const Surface& surface, const Registration& registration);
 
 } // namespace vcg_ext

@@ -47,6 +47,8 @@ const std::vector<MethodRow>& all_methods()
          nullptr,
          nullptr,
          nullptr,
+         nullptr,
+         nullptr,
          nullptr},
         {Method::Waves,
          "Waves",
@@ -63,6 +65,8 @@ const std::vector<MethodRow>& all_methods()
          read_by_waves,
          find_wave_copy,
          read_wave_copy,
+         certify_waves,
+         read_certified_waves,
          embed_by_waves},
         {Method::LM,
          "L-M",
@@ -79,6 +83,8 @@ const std::vector<MethodRow>& all_methods()
          read_norms,
          nullptr,
          read_norms_copy,
+         certify_norms,
+         read_certified_norms,
          embed_norms<Radial::Sphere>},
         {Method::QSP,
          "QSP",
@@ -95,6 +101,8 @@ const std::vector<MethodRow>& all_methods()
          read_norms,
          nullptr,
          read_norms_copy,
+         certify_norms,
+         read_certified_norms,
          embed_norms<Radial::Selective>},
         {Method::Cho,
          "Cho",
@@ -111,6 +119,8 @@ const std::vector<MethodRow>& all_methods()
          read_norms,
          nullptr,
          read_norms_copy,
+         certify_norms,
+         read_certified_norms,
          embed_norms<Radial::Straight>},
         {Method::Geodesic,
          "Geodesic",
@@ -127,6 +137,8 @@ const std::vector<MethodRow>& all_methods()
          read_geodesic,
          find_geodesic_copy,
          read_geodesic_copy,
+         nullptr,
+         nullptr,
          embed_geodesic},
         {Method::Spectral,
          "Spectral",
@@ -143,6 +155,8 @@ const std::vector<MethodRow>& all_methods()
          read_spectral,
          find_spectral_copy,
          read_spectral_copy,
+         nullptr,
+         nullptr,
          embed_spectral},
     };
     return methods;
@@ -167,6 +181,14 @@ Body body_for(const MethodRow& method, const Surface& surface)
 MarkFrame find_copy(const MethodRow& method, const Copy& copy, const Plan& plan)
 {
     return method.find_copy ? method.find_copy(copy, plan) : method.find_frame(copy.original, plan);
+}
+
+Readings read_certified(const MethodRow& method, const CertifiedCopy& copy, const Plan& plan)
+{
+    if (!method.read_certified)
+        throw Error(std::string(method.name) +
+                    " needs the original itself: give its layer as Original, and leave Certificate empty.");
+    return method.read_certified(copy, plan);
 }
 
 const char* name(Method method)

@@ -5,6 +5,7 @@
 #include "../geometry/body.h"
 #include "../payload/message.h"
 #include "../placement/cover.h"
+#include "certificate.h"
 #include "copy.h"
 #include "plan.h"
 
@@ -51,6 +52,14 @@ struct MethodRow {
     /// What the carriers of a copy say, given find_copy().
     Readings (*read_copy)(const Copy& copy, const Plan& plan, const MarkFrame& frame);
 
+    /// Adds to a certificate what read_certified() needs of the original. Null: it would need all of it.
+    /// \throw Error where the original cannot carry this method's mark
+    void (*certify)(const Surface& original, const Plan& plan, Certificate& certificate);
+
+    /// What the carriers of a copy say where a certificate is all that is left of the original.
+    /// \throw Error where it has not what certify() adds
+    Readings (*read_certified)(const CertifiedCopy& copy, const Plan& plan);
+
     /// Writes the coded bits, as many as carriers. `options.strength` is in range.
     /// \throw DoesNotFit where the mesh cannot carry them
     Marking (*embed)(const Cover& cover, const Plan& plan, const Bits& coded, const PlacementOptions& options,
@@ -62,6 +71,9 @@ struct MethodRow {
 
 /// MethodRow::find_copy, or what stands for it.
 [[nodiscard]] MarkFrame find_copy(const MethodRow& method, const Copy& copy, const Plan& plan);
+
+/// MethodRow::read_certified. \throw Error where there is none, or this certificate is another method's
+[[nodiscard]] Readings read_certified(const MethodRow& method, const CertifiedCopy& copy, const Plan& plan);
 
 /// All methods, in the order in which users choose.
 [[nodiscard]] const std::vector<MethodRow>& all_methods();

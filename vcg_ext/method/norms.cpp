@@ -6,6 +6,7 @@
 #include "../placement/fold_guard.h"
 #include "../placement/radial.h"
 #include "../placement/selective.h"
+#include "copy.h"
 
 #include <cmath>
 
@@ -209,6 +210,16 @@ Readings read_norms_copy(const Copy& copy, const Plan& plan, const MarkFrame& fr
     };
     const Surface laid = laid_on_original(copy);
     return read_part(cut(laid.points), cut(copy.original.points), places_that_are_left(copy, laid), plan);
+}
+
+void certify_norms(const Surface& original, const Plan& plan, Certificate& certificate)
+{
+    certificate.shells = std::get<ShellFrame>(find_norms(original, plan));
+}
+
+Readings read_certified_norms(const CertifiedCopy& copy, const Plan& plan)
+{
+    return read_norms(laid_on_original(copy.surface, copy.registration), plan, certified(copy.certificate.shells));
 }
 
 template <Radial placement>

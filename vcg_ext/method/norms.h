@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../placement/cover.h"
+#include "certificate.h"
 #include "copy.h"
 #include "scalar.h"
 
@@ -12,8 +13,11 @@ namespace vcg_ext {
 [[nodiscard]] MarkFrame find_norms(const Surface& surface, const Plan& plan);
 [[nodiscard]] Readings read_norms(const Surface& surface, const Plan& plan, const MarkFrame& frame);
 
-/// With the original at hand: its shells, and what is left of each beside the same part of the original.
+/// With the original at hand: its shells, and what is left of each beside the same part of the original. With a
+/// certificate: its shells alone.
 [[nodiscard]] Readings read_norms_copy(const Copy& copy, const Plan& plan, const MarkFrame& frame);
+void certify_norms(const Surface& original, const Plan& plan, Certificate& certificate);
+[[nodiscard]] Readings read_certified_norms(const CertifiedCopy& copy, const Plan& plan);
 
 /// How a vertex gets to its sphere.
 enum class Radial {

@@ -176,14 +176,6 @@ int best_rounds(const Try& residual)
     return best;
 }
 
-void to_unit_rms(Rows& columns)
-{
-    for (Eigen::Index c = 0; c < columns.cols(); ++c) {
-        const double rms = std::sqrt(columns.col(c).squaredNorm() / static_cast<double>(columns.rows()));
-        columns.col(c) /= std::max(rms, 1e-12);
-    }
-}
-
 } // namespace
 
 WaveCopy::WaveCopy(const Copy& copy)
@@ -201,7 +193,7 @@ WaveCopy::WaveCopy(const Copy& copy)
         if (rounds > 0)
             trial.feet = std::make_shared<FootSearch>(in_mesh(body_, sewn, smoothed(rounds)));
         const FootSearch& feet = rounds > 0 ? *trial.feet : copy.registrar.original();
-        Registrar(feet, copy.registrar.size()).follow(copy.surface, trial.registration);
+        Registrar(feet, copy.registrar).follow(copy.surface, trial.registration);
         return (trials[rounds] = std::move(trial)).registration.residual;
     };
     const bool smooth = seems_smoothed(copy, copy.registration, in_mesh(body_, sewn, smoothed(3)).points);
@@ -216,7 +208,7 @@ WaveCopy::WaveCopy(const Copy& copy)
     worn.rounds = rounds;
     worn.weight = 0.75;
     worn.registration = trials[rounds].registration;
-    Registrar(*trials[rounds].feet, copy.registrar.size()).refine(copy.surface, worn.registration);
+    Registrar(*trials[rounds].feet, copy.registrar).refine(copy.surface, worn.registration);
     plain.weight = 1 - worn.weight;
     look(copy, *trials[rounds].feet, std::move(worn));
     look(copy, copy.registrar.original(), std::move(plain));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "waves.h"
 
-#include "wave_copy.h"
 #include "wave_embedding.h"
 
 #include <algorithm>
@@ -88,56 +87,6 @@ Readings read_by_waves(const Surface& /*surface*/, const Plan& plan, const MarkF
     readings.match = [all](const Bits& coded) {
         return best_of(all, [&](const Read& one) { return wave_match(one.reading, one.presence, coded).log_p; });
     };
-    return readings;
-}
-
-MarkFrame find_wave_copy(const Copy& copy, const Plan& /*plan*/)
-{
-    return std::make_shared<const WaveCopy>(copy);
-}
-
-Readings read_wave_copy(const Copy& /*copy*/, const Plan& plan, const MarkFrame& frame)
-{
-    const WaveCopy& copy = *std::get<std::shared_ptr<const WaveCopy>>(frame);
-    const int count = plan.waves.count();
-    if (plan.options.quick) { // it takes as long as any other, so numbers on the side are not tried
-        Readings nothing;
-        nothing.ways.emplace_back();
-        nothing.ways.front().soft.assign(count, 0);
-        nothing.ways.front().erased.assign(count, 1);
-        return nothing;
-    }
-    const WaveReply reply(copy.body(), plan.waves);
-    int usual = 0;
-    (void)wave_step(copy.body(), WaveReadOptions().strength, count, &usual);
-    std::vector<WaveAssumption> assumptions;
-    for (int rung = usual - rungs_at_rest; rung <= usual + rungs_at_rest; ++rung) {
-        WaveMoves moves = reply.moves(rung);
-        assumptions.push_back(
-            {std::abs(rung - usual) * std::log(rung_fall), std::move(moves.middle), std::move(moves.per_bit)});
-    }
-    Readings readings;
-    readings.in_log_likelihoods = true;
-    double most = -1;
-    for (const WaveCopy::State& state : copy.states()) {
-        const Rows waves = copy.waves(state, reply.field(), plan.waves);
-        std::vector<Demodulated> all = demodulate(state.field, waves, plan.waves.vectors, assumptions);
-        std::stable_sort(all.begin(), all.end(),
-                         [](const Demodulated& a, const Demodulated& b) { return a.weight > b.weight; });
-        for (std::size_t i = 0; i < all.size() && i < most_ways && all[i].weight > 1e-3; ++i) {
-            if (i == 0 && all[i].information > most) {
-                most = all[i].information;
-                readings.blind = static_cast<int>(readings.ways.size());
-            }
-            Reading reading;
-            reading.weight = state.weight * all[i].weight;
-            reading.erased.assign(count, 0);
-            reading.soft = std::move(all[i].soft);
-            readings.ways.push_back(std::move(reading));
-        }
-        if (state.rounds > 0)
-            readings.smoothing_rounds = state.rounds;
-    }
     return readings;
 }
 

@@ -4,6 +4,7 @@
 #include "../carrier/reading.h"
 #include "../payload/message.h"
 #include "../placement/cover.h"
+#include "certificate.h"
 #include "copy.h"
 #include "plan.h"
 
@@ -20,6 +21,10 @@ namespace vcg_ext {
 /// With the original at hand: the field by which a copy lies off it, demodulated (carrier/demodulation.h).
 [[nodiscard]] MarkFrame find_wave_copy(const Copy& copy, const Plan& plan);
 [[nodiscard]] Readings read_wave_copy(const Copy& copy, const Plan& plan, const MarkFrame& frame);
+
+/// The same by what a certificate has of the original: patches stand for samples, and smoothing cannot be simulated.
+void certify_waves(const Surface& original, const Plan& plan, Certificate& certificate);
+[[nodiscard]] Readings read_certified_waves(const CertifiedCopy& copy, const Plan& plan);
 
 [[nodiscard]] Marking embed_by_waves(const Cover& cover, const Plan& plan, const Bits& coded,
                                      const PlacementOptions& options, const Progress& progress);

@@ -126,25 +126,26 @@ WaveReply::WaveReply(const WaveBody& body, const WavePlan& plan) : plan_(plan), 
     solver_.compute(derivative_);
 }
 
-WaveMoves WaveReply::moves(int rung) const
+WaveMoves wave_moves(const WavePlan& plan, const std::vector<double>& values,
+                     const Eigen::PartialPivLU<Eigen::MatrixXd>& derivative, int rung)
 {
     const double step = step_of_rung(rung);
-    const int count = plan_.count();
+    const int count = plan.count();
     Eigen::VectorXd middle(count);
     Eigen::VectorXd half(count);
     for (int k = 0; k < count; ++k) {
         double move[2];
         for (const int bit : {0, 1}) {
-            const double shift = plan_.dithers[k] + bit * 0.5;
-            move[bit] = usual_part * (step * (std::round(values_[k] / step - shift) + shift) - values_[k]);
+            const double shift = plan.dithers[k] + bit * 0.5;
+            move[bit] = usual_part * (step * (std::round(values[k] / step - shift) + shift) - values[k]);
         }
         middle[k] = (move[0] + move[1]) / 2;
         half[k] = (move[1] - move[0]) / 2;
     }
     WaveMoves moves;
     moves.rung = rung;
-    moves.middle = solver_.solve(middle);
-    moves.per_bit = solver_.solve(Eigen::MatrixXd(half.asDiagonal()));
+    moves.middle = derivative.solve(middle);
+    moves.per_bit = derivative.solve(Eigen::MatrixXd(half.asDiagonal()));
     return moves;
 }
 

@@ -17,6 +17,11 @@ struct WaveMoves {
     Eigen::MatrixXd per_bit; ///< a column a bit
 };
 
+/// What embedding with the step of a rung does, where each wave goes the usual part of the way to its nearest target.
+/// \param values of the body: the m_k  \param derivative of these by the amplitudes
+[[nodiscard]] WaveMoves wave_moves(const WavePlan& plan, const std::vector<double>& values,
+                                   const Eigen::PartialPivLU<Eigen::MatrixXd>& derivative, int rung);
+
 /// How a body answers to waves on its surface, to first order.
 class WaveReply {
 public:
@@ -34,8 +39,7 @@ public:
 
     [[nodiscard]] const WaveField& field() const { return field_; }
 
-    /// What embedding with the step of a rung does, where each wave goes the usual part of the way to its nearest target.
-    [[nodiscard]] WaveMoves moves(int rung) const;
+    [[nodiscard]] WaveMoves moves(int rung) const { return wave_moves(plan_, values_, solver_, rung); }
 
 private:
     WavePlan plan_;

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wave_copy.h"
+#include "waves.h"
+
+#include "../base/pi.h"
+#include "../geometry/wave_sums.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace vcg_ext {
+
+namespace {
+
+constexpr int rungs = 18; ///< each way from the usual strength: a factor of 22, so 5e-6 to 2e-3
+constexpr int most_ways = 4;
+constexpr double floor_of_noise = 2e-6; ///< of the diagonal: what rounding to float leaves
+
+/// The steps in which an embedder may have counted, those near the usual one with the most weight.
+template <class Moves>
+std::vector<WaveAssumption> steps_to_try(const WaveBody& body, int waves, const Moves& moves)
+{
+    int usual = 0;
+    (void)wave_step(body, WaveReadOptions().strength, waves, &usual);
+    std::vector<WaveAssumption> assumptions;
+    for (int rung = usual - rungs; rung <= usual + rungs; ++rung) {
+        WaveMoves one = moves(rung);
+        assumptions.push_back(
+            {std::abs(rung - usual) * std::log(rung_fall), std::move(one.middle), std::move(one.per_bit)});
+    }
+    return assumptions;
+}
+
+/// The ways in which copies of one original are read.
+class Ways {
+public:
+    explicit Ways(int carriers) : carriers_(carriers) { readings.in_log_likelihoods = true; }
+
+    /// \param weight of all of them together
+    void add(std::vector<Demodulated> all, double weight)
+    {
+        std::stable_sort(all.begin(), all.end(),
+                         [](const Demodulated& a, const Demodulated& b) { return a.weight > b.weight; });
+        for (std::size_t i = 0; i < all.size() && i < most_ways && all[i].weight > 1e-3; ++i) {
+            if (i == 0 && all[i].information > most_) {
+                most_ = all[i].information;
+                readings.blind = static_cast<int>(readings.ways.size());
+            }
+            Reading reading;
+            reading.weight = weight * all[i].weight;
+            reading.erased.assign(carriers_, 0);
+            reading.soft = std::move(all[i].soft);
+            readings.ways.push_back(std::move(reading));
+        }
+    }
+
+    Readings readings;
+
+private:
+    int carriers_;
+    double most_ = -1;
+};
+
+/// It takes as long as any other, so numbers of carriers on the side are not tried.
+Readings nothing(int carriers)
+{
+    Readings readings;
+    readings.ways.emplace_back();
+    readings.ways.front().soft.assign(carriers, 0);
+    readings.ways.front().erased.assign(carriers, 1);
+    return readings;
+}
+
+/// The patches that are there as they were, whatever noise does to all areas alike.
+std::vector<int> whole_places(const LocalMeans& own, const LocalMeans& seen)
+{
+    constexpr double tolerance = 0.15;
+    std::vector<double> ratios(own.masses.size(), 0);
+    std::vector<double> there;
+    for (std::size_t i = 0; i < ratios.size(); ++i) {
+        ratios[i] = own.masses[i] > 0 ? seen.masses[i] / own.masses[i] : 0;
+        if (ratios[i] > 0.5)
+            there.push_back(ratios[i]);
+    }
+    std::vector<int> whole;
+    if (there.empty())
+        return whole;
+    const auto middle = there.begin() + static_cast<std::ptrdiff_t>(there.size() / 2);
+    std::nth_element(there.begin(), middle, there.end());
+    for (std::size_t i = 0; i < ratios.size(); ++i)
+        if (std::abs(ratios[i] / *middle - 1) < tolerance)
+            whole.push_back(static_cast<int>(i));
+    return whole;
+}
+
+/// A certificate's points among the waves of a plan.
+class Imprint {
+public:
+    Imprint(const Certificate& certificate, const WavePlan& plan) : impression_(certificate.impression), plan_(plan)
+    {
+        const Stand& solid = impression_.likeness.solid;
+        const Eigen::Matrix3d into = certified(certificate.waves).axes.transpose();
+        for (std::size_t i = 0; i < impression_.points.size(); ++i) {
+            places_.emplace_back(into * (impression_.points[i] - solid.centre) / solid.length);
+            normals_.emplace_back(into * impression_.normals[i]);
+        }
+        const std::vector<double> values = wave_values(places_, plan.vectors, plan.phases);
+        waves_ = Eigen::Map<const Rows>(values.data(), static_cast<Eigen::Index>(places_.size()), plan.count());
+    }
+
+    /// Integrals over the surface of each wave times each.
+    [[nodiscard]] Eigen::MatrixXd gram() const
+    {
+        const Eigen::Map<const Eigen::VectorXd> areas(impression_.areas.data(), waves_.rows());
+        return waves_.transpose() * (areas / std::pow(impression_.likeness.size(), 2)).asDiagonal() * waves_;
+    }
+
+    /// What waves do to the means of some patches.
+    [[nodiscard]] Rows waves(const std::vector<int>& some) const
+    {
+        Rows result(static_cast<Eigen::Index>(some.size()), plan_.count());
+        for (std::size_t row = 0; row < some.size(); ++row)
+            for (int k = 0; k < plan_.count(); ++k) {
+                const Point& q = plan_.vectors[k];
+                const double along = q.squaredNorm() - std::pow(q.dot(normals_[some[row]]), 2);
+                result(static_cast<Eigen::Index>(row), k) =
+                    waves_(some[row], k) * std::exp(-mean_spread * mean_spread * along / 2);
+            }
+        return result;
+    }
+
+    /// How far some patches lie off where they were. Their own offsets are mean curvatures.
+    [[nodiscard]] ResidualField field(const std::vector<int>& some, const LocalMeans& seen) const
+    {
+        const double size = impression_.likeness.size();
+        const std::vector<double>& own = impression_.means.offsets;
+        const auto rows = static_cast<Eigen::Index>(some.size());
+        ResidualField field;
+        field.floor = floor_of_noise * impression_.likeness.diagonal / size;
+        field.residual.resize(rows);
+        field.nuisance.resize(rows, 14);
+        field.kind.assign(some.size(), 0);
+        for (Eigen::Index row = 0; row < rows; ++row) {
+            const int i = some[row];
+            field.residual[row] = (seen.offsets[i] - own[i]) / size;
+            field.places.push_back(places_[i]);
+            field.roughness.push_back(std::abs(own[i]));
+            auto z = field.nuisance.row(row);
+            z.head<3>() = normals_[i];
+            for (int a = 0; a < 3; ++a)
+                z.segment<3>(3 + 3 * a) = places_[i][a] * normals_[i];
+            z.tail<2>() << 1, own[i];
+        }
+        to_unit_rms(field.nuisance);
+        return field;
+    }
+
+private:
+    const Impression& impression_;
+    const WavePlan& plan_;
+    Points places_;
+    Points normals_;
+    Rows waves_;
+};
+
+} // namespace
+
+MarkFrame find_wave_copy(const Copy& copy, const Plan& /*plan*/)
+{
+    return std::make_shared<const WaveCopy>(copy);
+}
+
+Readings read_wave_copy(const Copy& /*copy*/, const Plan& plan, const MarkFrame& frame)
+{
+    const WaveCopy& copy = *std::get<std::shared_ptr<const WaveCopy>>(frame);
+    if (plan.options.quick)
+        return nothing(plan.waves.count());
+    const WaveReply reply(copy.body(), plan.waves);
+    const std::vector<WaveAssumption> assumptions =
+        steps_to_try(copy.body(), plan.waves.count(), [&](int rung) { return reply.moves(rung); });
+    Ways ways(plan.waves.count());
+    for (const WaveCopy::State& state : copy.states()) {
+        const Rows waves = copy.waves(state, reply.field(), plan.waves);
+        ways.add(demodulate(state.field, waves, plan.waves.vectors, assumptions), state.weight);
+        if (state.rounds > 0)
+            ways.readings.smoothing_rounds = state.rounds;
+    }
+    return ways.readings;
+}
+
+void certify_waves(const Surface& original, const Plan& plan, Certificate& certificate)
+{
+    const WaveBody body = wave_body(original);
+    certificate.waves = Certificate::Waves{body.frame.axes, WaveReply(body, plan.waves).values()};
+}
+
+Readings read_certified_waves(const CertifiedCopy& copy, const Plan& plan)
+{
+    const Imprint imprint(copy.certificate, plan.waves);
+    const Likeness& likeness = copy.certificate.impression.likeness;
+    WaveBody body;
+    body.radius = likeness.size();
+    body.diagonal = likeness.diagonal;
+    body.area = std::pow(likeness.surface.length / body.radius, 2);
+    const Eigen::PartialPivLU<Eigen::MatrixXd> derivative(imprint.gram() / (4 * pi));
+    const std::vector<WaveAssumption> assumptions = steps_to_try(body, plan.waves.count(), [&](int rung) {
+        return wave_moves(plan.waves, certified(copy.certificate.waves).values, derivative, rung);
+    });
+    const LocalMeans seen =
+        local_means(copy.certificate.impression.points, copy.certificate.impression.normals, mean_radius * body.radius,
+                    laid_by(copy.registration.affine, copy.surface, copy.registration));
+    const std::vector<int> whole = whole_places(copy.certificate.impression.means, seen);
+    Ways ways(plan.waves.count());
+    ways.add(demodulate(imprint.field(whole, seen), imprint.waves(whole), plan.waves.vectors, assumptions), 1);
+    return ways.readings;
+}
+
+} // namespace vcg_ext
