@@ -10,6 +10,7 @@ from doors import DETECT_WITH_ORIGINAL, DOORS, EMBED, MESHES, PyMeshLab, Refused
 KEY = "correct horse battery staple"
 MESSAGE = "(c) 2026"
 ORIGINAL = MESHES / "bunny00.off"
+FANDISK = MESHES / "fandisk.off"
 
 pytestmark = pytest.mark.usefixtures("display")
 
@@ -63,14 +64,15 @@ def test_the_dict_has_the_registration_and_meshes_stay(marked: Path) -> None:
     assert (meshes.current_mesh().vertex_matrix() == before).all()
 
 
-def test_a_certificate_takes_the_originals_place_through_every_door(piece: Path, tmp_path: Path) -> None:
+def test_a_certificate_takes_the_originals_place_through_every_door(tmp_path: Path) -> None:
     asked: dict[str, Value] = {"Method": "Waves", "Key": KEY}
     for name, door in DOORS.items():
         certificate = tmp_path / name
-        door().run(EMBED, ORIGINAL, Certificate=str(certificate), Message=MESSAGE, **asked)
+        suspect = tmp_path / f"{name}.ply"
+        door().run(EMBED, FANDISK, suspect, Certificate=str(certificate), Message=MESSAGE, **asked)
         assert 20_000 < certificate.stat().st_size < 30_000, name
         assert KEY.encode() not in certificate.read_bytes(), name
-        report = door().run(DETECT_WITH_ORIGINAL, piece, Certificate=str(certificate), Expected=MESSAGE, **asked)
+        report = door().run(DETECT_WITH_ORIGINAL, suspect, Certificate=str(certificate), Expected=MESSAGE, **asked)
         assert report["present"] is True, name
         assert report["registration"]["overlap"] > 0.97, name
 
@@ -78,7 +80,7 @@ def test_a_certificate_takes_the_originals_place_through_every_door(piece: Path,
 def test_bad_certificates_are_named(marked: Path, tmp_path: Path) -> None:
     door = PyMeshLab()
     whole = tmp_path / "whole"
-    door.run(EMBED, MESHES / "fandisk.off", Certificate=str(whole), Message=MESSAGE, Key=KEY, Method="Waves")
+    door.run(EMBED, FANDISK, Certificate=str(whole), Message=MESSAGE, Key=KEY, Method="Waves")
     cut = tmp_path / "cut"
     cut.write_bytes(whole.read_bytes()[:-100])
     for path, text in ((cut, "cut off"), (marked, "no certificate"), (tmp_path / "none", "cannot be read")):
