@@ -196,9 +196,10 @@ Impression impression_of(const Surface& surface, int count)
         nearest[s] = static_cast<int>(std::min_element(result.points.begin(), result.points.end(), nearer) -
                                       result.points.begin());
     });
+    const double area_of_a_sample = surface_area(surface) / static_cast<double>(nearest.size());
     result.areas.assign(count, 0);
     for (const int i : nearest)
-        result.areas[i] += surface_area(surface) / static_cast<double>(nearest.size());
+        result.areas[i] += area_of_a_sample;
     result.means = {std::vector<double>(count, 1), std::vector<double>(count, 0)};
 
     result = as_stored(result); // what follows is about the points as they are stored

@@ -13,13 +13,18 @@ namespace {
 constexpr double stretched = 1.1;
 } // namespace
 
+void turn_round(Surface& surface)
+{
+    for (Triangle& t : surface.triangles)
+        std::swap(t[1], t[2]);
+}
+
 Surface laid_by(const Eigen::Affine3d& pose, const Surface& surface, const Registration& registration)
 {
     Surface laid = surface;
     for_each_index(static_cast<int>(laid.points.size()), [&](int v) { laid.points[v] = pose * laid.points[v]; });
     if (registration.mirrored() != registration.inside_out)
-        for (Triangle& t : laid.triangles)
-            std::swap(t[1], t[2]);
+        turn_round(laid);
     return laid;
 }
 

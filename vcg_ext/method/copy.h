@@ -18,6 +18,9 @@ struct Copy {
 /// Per vertex of the original whether that place is there in the copy laid on it, and was not cut off.
 [[nodiscard]] std::vector<char> places_that_are_left(const Copy& copy, const Surface& laid);
 
+/// Turns all faces to look the other way.
+void turn_round(Surface& surface);
+
 /// A copy laid on its original: in the original's place, at its size, its faces looking the same way.
 [[nodiscard]] Surface laid_on_original(const Surface& surface, const Registration& registration);
 [[nodiscard]] inline Surface laid_on_original(const Copy& copy)

@@ -21,6 +21,7 @@ namespace {
 
 constexpr int most_vertices = 40000; ///< of the copy that are looked at
 constexpr int area_samples = 12000;
+constexpr int points_of_impression = 3000;
 constexpr double reach = 0.1;           ///< of feet, in radii
 constexpr double least_cosine = -0.2;   ///< between the normals of copy and original
 constexpr double least_flatness = 0.8;  ///< cosine between a face's normal and the mean of those around: no sharp edges
@@ -179,8 +180,8 @@ int best_rounds(const Try& residual)
 } // namespace
 
 WaveCopy::WaveCopy(const Copy& copy)
-    : body_(wave_body(copy.original)), graph_(edge_graph(copy.registrar.original().surface())),
-      directions_(offset_directions(body_))
+    : body_(wave_body(copy.original)), impression_(impression_of(copy.original, points_of_impression)),
+      graph_(edge_graph(copy.registrar.original().surface())), directions_(offset_directions(body_))
 {
     const Surface& sewn = copy.registrar.original().surface();
     Smoothing smoothed(body_, graph_);

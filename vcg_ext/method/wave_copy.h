@@ -16,6 +16,9 @@ public:
     /// The original.
     [[nodiscard]] const WaveBody& body() const { return body_; }
 
+    /// Of the original too: means over patches, where noise drowns what single samples say.
+    [[nodiscard]] const Impression& impression() const { return impression_; }
+
     /// One way to see what was done to the copy.
     struct State {
         int rounds = 0;    ///< of smoothing with uniform weights, by a half, before it was registered
@@ -35,6 +38,7 @@ private:
     void look(const Copy& copy, const FootSearch& feet, State state);
 
     WaveBody body_;
+    Impression impression_;
     EdgeGraph graph_;
     Points directions_;
     std::vector<State> states_;

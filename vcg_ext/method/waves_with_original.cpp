@@ -2,6 +2,7 @@
 #include "wave_copy.h"
 #include "waves.h"
 
+#include "../base/median.h"
 #include "../base/pi.h"
 #include "../geometry/wave_sums.h"
 
@@ -15,6 +16,7 @@ namespace {
 
 constexpr int rungs = 18; ///< each way from the usual strength: a factor of 22, so 5e-6 to 2e-3
 constexpr int most_ways = 4;
+constexpr double share_of_means = 0.3;  ///< of all ways to read a copy: they speak louder where there is noise
 constexpr double floor_of_noise = 2e-6; ///< of the diagonal: what rounding to float leaves
 
 /// The steps in which an embedder may have counted, those near the usual one with the most weight.
@@ -86,24 +88,24 @@ std::vector<int> whole_places(const LocalMeans& own, const LocalMeans& seen)
     std::vector<int> whole;
     if (there.empty())
         return whole;
-    const auto middle = there.begin() + static_cast<std::ptrdiff_t>(there.size() / 2);
-    std::nth_element(there.begin(), middle, there.end());
+    const double usual = median(std::move(there));
     for (std::size_t i = 0; i < ratios.size(); ++i)
-        if (std::abs(ratios[i] / *middle - 1) < tolerance)
+        if (std::abs(ratios[i] / usual - 1) < tolerance)
             whole.push_back(static_cast<int>(i));
     return whole;
 }
 
-/// A certificate's points among the waves of a plan.
+/// An impression's points among the waves of a plan.
 class Imprint {
 public:
-    Imprint(const Certificate& certificate, const WavePlan& plan) : impression_(certificate.impression), plan_(plan)
+    /// \param axes in which waves are counted
+    Imprint(const Impression& impression, const Eigen::Matrix3d& axes, const WavePlan& plan)
+        : impression_(impression), plan_(plan)
     {
         const Stand& solid = impression_.likeness.solid;
-        const Eigen::Matrix3d into = certified(certificate.waves).axes.transpose();
         for (std::size_t i = 0; i < impression_.points.size(); ++i) {
-            places_.emplace_back(into * (impression_.points[i] - solid.centre) / solid.length);
-            normals_.emplace_back(into * impression_.normals[i]);
+            places_.emplace_back(axes.transpose() * (impression_.points[i] - solid.centre) / solid.length);
+            normals_.emplace_back(axes.transpose() * impression_.normals[i]);
         }
         const std::vector<double> values = wave_values(places_, plan.vectors, plan.phases);
         waves_ = Eigen::Map<const Rows>(values.data(), static_cast<Eigen::Index>(places_.size()), plan.count());
@@ -156,6 +158,16 @@ public:
         return field;
     }
 
+    /// What the local means of a copy say. \param laid on the original, its faces looking outward
+    [[nodiscard]] std::vector<Demodulated> read(const Surface& laid,
+                                                const std::vector<WaveAssumption>& assumptions) const
+    {
+        const LocalMeans seen =
+            local_means(impression_.points, impression_.normals, mean_radius * impression_.likeness.size(), laid);
+        const std::vector<int> whole = whole_places(impression_.means, seen);
+        return demodulate(field(whole, seen), waves(whole), plan_.vectors, assumptions);
+    }
+
 private:
     const Impression& impression_;
     const WavePlan& plan_;
@@ -171,18 +183,23 @@ MarkFrame find_wave_copy(const Copy& copy, const Plan& /*plan*/)
     return std::make_shared<const WaveCopy>(copy);
 }
 
-Readings read_wave_copy(const Copy& /*copy*/, const Plan& plan, const MarkFrame& frame)
+Readings read_wave_copy(const Copy& copy, const Plan& plan, const MarkFrame& frame)
 {
-    const WaveCopy& copy = *std::get<std::shared_ptr<const WaveCopy>>(frame);
+    const WaveCopy& seen = *std::get<std::shared_ptr<const WaveCopy>>(frame);
     if (plan.options.quick)
         return nothing(plan.waves.count());
-    const WaveReply reply(copy.body(), plan.waves);
+    const WaveReply reply(seen.body(), plan.waves);
     const std::vector<WaveAssumption> assumptions =
-        steps_to_try(copy.body(), plan.waves.count(), [&](int rung) { return reply.moves(rung); });
+        steps_to_try(seen.body(), plan.waves.count(), [&](int rung) { return reply.moves(rung); });
     Ways ways(plan.waves.count());
-    for (const WaveCopy::State& state : copy.states()) {
-        const Rows waves = copy.waves(state, reply.field(), plan.waves);
-        ways.add(demodulate(state.field, waves, plan.waves.vectors, assumptions), state.weight);
+    const Imprint imprint(seen.impression(), seen.body().frame.axes, plan.waves);
+    Surface laid = laid_by(copy.registration.affine, copy.surface, copy.registration);
+    if (seen.body().frame.measure < 0)
+        turn_round(laid);
+    ways.add(imprint.read(laid, assumptions), share_of_means);
+    for (const WaveCopy::State& state : seen.states()) {
+        const Rows waves = seen.waves(state, reply.field(), plan.waves);
+        ways.add(demodulate(state.field, waves, plan.waves.vectors, assumptions), (1 - share_of_means) * state.weight);
         if (state.rounds > 0)
             ways.readings.smoothing_rounds = state.rounds;
     }
@@ -197,22 +214,19 @@ void certify_waves(const Surface& original, const Plan& plan, Certificate& certi
 
 Readings read_certified_waves(const CertifiedCopy& copy, const Plan& plan)
 {
-    const Imprint imprint(copy.certificate, plan.waves);
+    const Certificate::Waves& known = certified(copy.certificate.waves);
+    const Imprint imprint(copy.certificate.impression, known.axes, plan.waves);
     const Likeness& likeness = copy.certificate.impression.likeness;
     WaveBody body;
     body.radius = likeness.size();
     body.diagonal = likeness.diagonal;
     body.area = std::pow(likeness.surface.length / body.radius, 2);
     const Eigen::PartialPivLU<Eigen::MatrixXd> derivative(imprint.gram() / (4 * pi));
-    const std::vector<WaveAssumption> assumptions = steps_to_try(body, plan.waves.count(), [&](int rung) {
-        return wave_moves(plan.waves, certified(copy.certificate.waves).values, derivative, rung);
-    });
-    const LocalMeans seen =
-        local_means(copy.certificate.impression.points, copy.certificate.impression.normals, mean_radius * body.radius,
-                    laid_by(copy.registration.affine, copy.surface, copy.registration));
-    const std::vector<int> whole = whole_places(copy.certificate.impression.means, seen);
+    const std::vector<WaveAssumption> assumptions = steps_to_try(
+        body, plan.waves.count(), [&](int rung) { return wave_moves(plan.waves, known.values, derivative, rung); });
     Ways ways(plan.waves.count());
-    ways.add(demodulate(imprint.field(whole, seen), imprint.waves(whole), plan.waves.vectors, assumptions), 1);
+    const Surface laid = laid_by(copy.registration.affine, copy.surface, copy.registration);
+    ways.add(imprint.read(laid, assumptions), 1);
     return ways.readings;
 }
 
