@@ -3,6 +3,7 @@
 
 #include "../base/parallel.h"
 #include "../carrier/wave_flows.h"
+#include "../geometry/boundary.h"
 #include "../geometry/normals.h"
 #include "../geometry/umbrella.h"
 #include "../geometry/wave_sums.h"
@@ -177,6 +178,16 @@ int best_rounds(const Try& residual)
     return best;
 }
 
+/// Whether the copy's edges are others than the original's, and not so many that it would take too long.
+bool has_own_edges(const Copy& copy)
+{
+    constexpr std::size_t most = 100000; // vertices
+    const Surface& original = copy.registrar.original().surface();
+    const Surface& surface = copy.surface;
+    return surface.points.size() <= most &&
+           (surface.points.size() != original.points.size() || surface.triangles.size() != original.triangles.size());
+}
+
 } // namespace
 
 WaveCopy::WaveCopy(const Copy& copy)
@@ -205,14 +216,74 @@ WaveCopy::WaveCopy(const Copy& copy)
         look(copy, copy.registrar.original(), std::move(plain));
         return;
     }
+    const bool own_edges = has_own_edges(copy);
     State worn;
     worn.rounds = rounds;
-    worn.weight = 0.75;
+    worn.weight = own_edges ? 0.3 : 0.75;
     worn.registration = trials[rounds].registration;
     Registrar(*trials[rounds].feet, copy.registrar).refine(copy.surface, worn.registration);
-    plain.weight = 1 - worn.weight;
+    plain.weight = own_edges ? 0.1 : 0.25;
+    if (own_edges)
+        look_before_smoothing(copy, worn);
     look(copy, *trials[rounds].feet, std::move(worn));
     look(copy, copy.registrar.original(), std::move(plain));
+}
+
+void WaveCopy::look_before_smoothing(const Copy& copy, const State& worn)
+{
+    constexpr double weight = 0.6; // of all ways
+    const Surface laid = laid_by(worn.registration.affine, copy.surface, worn.registration);
+    copy_graph_ = edge_graph(laid);
+    const std::vector<Unsmoothed> ways =
+        unsmoothings(copy.registrar.original(), copy.registrar.size(), laid, copy_graph_, worn.rounds);
+    for (const Unsmoothed& way : ways)
+        add(way, laid, weight / static_cast<double>(ways.size()));
+}
+
+void WaveCopy::add(const Unsmoothed& way, const Surface& surface, double weight)
+{
+    const double outward = body_.frame.measure < 0 ? -1 : 1;
+    const int count = static_cast<int>(surface.points.size());
+    State state;
+    state.rounds = way.rounds;
+    state.weight = weight;
+    state.places = way.feet;
+    std::vector<char> rim(count, 0);
+    for (const EdgeUse& edge : boundary(surface))
+        rim[edge.low] = rim[edge.high] = 1;
+    std::vector<double> area(count, 0);
+    for (const Triangle& t : surface.triangles)
+        for (const int v : t)
+            area[v] += scaled_normal(surface.points, t).norm();
+    for (int v = 0; v < count; ++v)
+        if (way.feet[v].face >= 0 && !way.feet[v].on_rim && !rim[v] && copy_graph_.degree(v) > 0)
+            state.vertices.push_back(v);
+
+    const std::vector<double> curvature = processing_flows(body_, site_normals(body_)).front();
+    const Points later = umbrella_step(copy_graph_, way.smoothed, 0.5);
+    const auto rows = static_cast<Eigen::Index>(state.vertices.size());
+    ResidualField& field = state.field;
+    field.floor = floor_of_noise * body_.diagonal / body_.radius;
+    field.kind.assign(state.vertices.size(), 0);
+    field.residual.resize(rows);
+    field.nuisance.resize(rows, 15);
+    for (Eigen::Index row = 0; row < rows; ++row) {
+        const int v = state.vertices[row];
+        const Point n = body_.frame.axes.transpose() * way.normals[v] * outward;
+        const Point p = body_.frame.axes.transpose() * (way.smoothed[v] - body_.frame.centre) / body_.radius;
+        const double bend = at_foot(curvature, body_.topology.triangles[way.feet[v].face], way.feet[v].weights);
+        field.residual[row] = outward * (way.laid[v] - way.smoothed[v]).dot(way.normals[v]) / body_.radius;
+        field.places.push_back(p);
+        field.roughness.push_back(std::abs(bend) * area[v]);
+        state.normals.push_back(n);
+        auto z = field.nuisance.row(row);
+        z.head<3>() = n;
+        for (int a = 0; a < 3; ++a)
+            z.segment<3>(3 + 3 * a) = p[a] * n;
+        z.tail<3>() << 1, bend, (later[v] - way.smoothed[v]).dot(way.normals[v]);
+    }
+    to_unit_rms(field.nuisance);
+    states_.push_back(std::move(state));
 }
 
 void WaveCopy::look(const Copy& copy, const FootSearch& feet, State state)
@@ -311,6 +382,17 @@ Rows WaveCopy::waves(const State& state, const WaveField& field, const WavePlan&
         Points moves(wave.size());
         for (std::size_t v = 0; v < wave.size(); ++v)
             moves[v] = wave[v] * directions_[v];
+        if (!state.places.empty()) {
+            Points there;
+            for (const Foot& foot : state.places)
+                there.emplace_back(foot.face < 0 ? Point(Point::Zero())
+                                                 : at_foot(moves, triangles[foot.face], foot.weights));
+            for (int round = 0; round < state.rounds; ++round)
+                there = umbrella_step(copy_graph_, there, 0.5);
+            for (int i = 0; i < rows; ++i)
+                result(i, k) = there[state.vertices[i]].dot(state.normals[i]);
+            return;
+        }
         for (int round = 0; round < state.rounds; ++round)
             moves = umbrella_step(graph_, moves, 0.5);
         for (int i = 0; i < rows; ++i) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../carrier/demodulation.h"
-#include "../geometry/edge_graph.h"
+#include "../geometry/unsmoothing.h"
 #include "../placement/wave_reply.h"
 #include "copy.h"
 
@@ -26,7 +26,11 @@ public:
         Registration registration;
         ResidualField field; ///< but for the waves
         std::vector<Foot> feet;
-        Points normals; ///< of the original at the feet, outward, in its frame
+        Points normals; ///< where the samples stand, outward, in the original's frame
+        /// Where smoothing went over the copy's own edges: per vertex its place on the original, and the vertices that are
+        /// samples.
+        std::vector<Foot> places;
+        std::vector<int> vertices;
     };
 
     [[nodiscard]] const std::vector<State>& states() const { return states_; }
@@ -36,10 +40,13 @@ public:
 
 private:
     void look(const Copy& copy, const FootSearch& feet, State state);
+    void look_before_smoothing(const Copy& copy, const State& worn);
+    void add(const Unsmoothed& way, const Surface& surface, double weight);
 
     WaveBody body_;
     Impression impression_;
     EdgeGraph graph_;
+    EdgeGraph copy_graph_; ///< where it was smoothed over edges of its own
     Points directions_;
     std::vector<State> states_;
 };
