@@ -23,7 +23,7 @@ FILTERS: dict[str, dict[str, host.Value]] = {
 }
 TYPES = {
     "RichString": "text", "RichInt": "whole number", "RichFloat": "number", "RichBool": "yes or no",
-    "RichMesh": "layer", "RichSaveFile": "file",
+    "RichMesh": "layer", "RichOpenFile": "file", "RichSaveFile": "file",
 }  # fmt: skip
 
 

@@ -23,10 +23,9 @@ namespace {
 constexpr int most_vertices = 40000; ///< of the copy that are looked at
 constexpr int area_samples = 12000;
 constexpr int points_of_impression = 3000;
-constexpr double reach = 0.1;           ///< of feet, in radii
-constexpr double least_cosine = -0.2;   ///< between the normals of copy and original
-constexpr double least_flatness = 0.8;  ///< cosine between a face's normal and the mean of those around: no sharp edges
-constexpr double floor_of_noise = 2e-6; ///< of the diagonal: what rounding to float leaves
+constexpr double reach = 0.1;          ///< of feet, in radii
+constexpr double least_cosine = -0.2;  ///< between the normals of copy and original
+constexpr double least_flatness = 0.8; ///< cosine between a face's normal and the mean of those around: no sharp edges
 
 /// Where a copy is looked at, laid on its original.
 struct Samples {

@@ -7,6 +7,9 @@
 
 namespace vcg_ext {
 
+/// Of the diagonal: what rounding to float leaves of a residual field.
+constexpr double floor_of_noise = 2e-6;
+
 /// Samples of a copy at their feet on the original, or on the original after some rounds of smoothing; how it was
 /// marked has no part in it.
 class WaveCopy {

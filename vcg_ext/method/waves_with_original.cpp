@@ -15,9 +15,8 @@ namespace vcg_ext {
 namespace {
 
 constexpr int rungs = 18; ///< each way from the usual strength: a factor of 22, so 5e-6 to 2e-3
-constexpr int most_ways = 4;
-constexpr double share_of_means = 0.3;  ///< of all ways to read a copy: they speak louder where there is noise
-constexpr double floor_of_noise = 2e-6; ///< of the diagonal: what rounding to float leaves
+constexpr int most_steps = 4;
+constexpr double share_of_means = 0.3; ///< of all ways to read a copy: they speak louder where there is noise
 
 /// The steps in which an embedder may have counted, those near the usual one with the most weight.
 template <class Moves>
@@ -44,7 +43,7 @@ public:
     {
         std::stable_sort(all.begin(), all.end(),
                          [](const Demodulated& a, const Demodulated& b) { return a.weight > b.weight; });
-        for (std::size_t i = 0; i < all.size() && i < most_ways && all[i].weight > 1e-3; ++i) {
+        for (std::size_t i = 0; i < all.size() && i < most_steps && all[i].weight > 1e-3; ++i) {
             if (i == 0 && all[i].information > most_) {
                 most_ = all[i].information;
                 readings.blind = static_cast<int>(readings.ways.size());
