@@ -89,14 +89,13 @@ std::pair<Outcome, std::string> try_to_mark(const Surface& cover, const Key& key
 {
     Surface stego = cover;
     try {
-        (void)embed(stego, key, options);
+        const EmbedReport report = embed(stego, key, options);
         DetectOptions reading;
         reading.carriers = options.carriers;
         reading.expected = {options.message};
         if (!std::all_of(stego.points.begin(), stego.points.end(), [](const Point& p) { return p.allFinite(); }))
             return {wrong, "coordinates that are not finite"};
-        // With the key alone nothing tells which of several layers says so many bits without redundancy.
-        if (*detect(stego, key, reading).detection_ratio < 1)
+        if (detect(stego, key, reading).bits != report.bits)
             return {wrong, "other bits were read"};
         return {marked, ""};
     } catch (const DoesNotFit& error) {

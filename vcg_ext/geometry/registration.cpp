@@ -251,8 +251,8 @@ Registration Registrar::operator()(const Surface& surface, const Progress& progr
         int rounds = 0;
         for (const int wanted : {10, 50}) {
             report(progress, 20 + wanted / 5, "Registering");
-            for (; rounds < wanted; ++rounds)
-                smoothed.points = umbrella_step(graph, smoothed.points, 0.5);
+            smoothed.points = umbrella_steps(graph, std::move(smoothed.points), 0.5, wanted - rounds);
+            rounds = wanted;
             const std::vector<Scored> other = polished(FootSearch(smoothed), size_, samples, hypotheses);
             if (!other.empty() && other.front().fits()) {
                 found = other;

@@ -16,6 +16,13 @@ Points umbrella_step(const EdgeGraph& graph, const Points& points, double part)
     return moved;
 }
 
+Points umbrella_steps(const EdgeGraph& graph, Points points, double part, int steps)
+{
+    for (int step = 0; step < steps; ++step)
+        points = umbrella_step(graph, points, part);
+    return points;
+}
+
 Points taubin(const EdgeGraph& graph, Points points, int passes, double shrink, double inflate)
 {
     for (int pass = 0; pass < passes; ++pass)

@@ -10,6 +10,9 @@ namespace vcg_ext {
 /// \param part in (0, 1] to smooth, negative to inflate
 [[nodiscard]] Points umbrella_step(const EdgeGraph& graph, const Points& points, double part);
 
+/// So many such steps, one after the other.
+[[nodiscard]] Points umbrella_steps(const EdgeGraph& graph, Points points, double part, int steps);
+
 /// Low-pass without shrinking (Taubin 1995): in each pass one step of `shrink`, then one of `inflate`.
 ///
 /// \param shrink in (0, 1)

@@ -24,9 +24,7 @@ using Twelve = Eigen::Matrix<double, 12, 1>;
 
 Points smoothed(const EdgeGraph& graph, Points points, int rounds)
 {
-    for (int round = 0; round < rounds; ++round)
-        points = umbrella_step(graph, points, 0.5);
-    return points;
+    return umbrella_steps(graph, std::move(points), 0.5, rounds);
 }
 
 /// 1.48 times the median of the absolute values.

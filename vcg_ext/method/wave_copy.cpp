@@ -102,10 +102,7 @@ public:
         const auto before = std::prev(known_.upper_bound(rounds));
         if (before->first == rounds)
             return before->second;
-        Points points = before->second;
-        for (int round = before->first; round < rounds; ++round)
-            points = umbrella_step(graph_, points, 0.5);
-        return known_[rounds] = std::move(points);
+        return known_[rounds] = umbrella_steps(graph_, before->second, 0.5, rounds - before->first);
     }
 
 private:
@@ -297,9 +294,8 @@ void WaveCopy::look(const Copy& copy, const FootSearch& feet, State state)
     const Points vertex_normal = site_normals(now);
     std::vector<std::vector<double>> flows = processing_flows(now, vertex_normal);
     if (state.rounds > 0) { // some rounds more
-        Points later(now.points.begin(), now.points.begin() + sites);
-        for (int round = 0; round < std::max(1, state.rounds / 10); ++round)
-            later = umbrella_step(graph_, later, 0.5);
+        const Points later = umbrella_steps(graph_, {now.points.begin(), now.points.begin() + sites}, 0.5,
+                                            std::max(1, state.rounds / 10));
         std::vector<double> flow(sites);
         for (int v = 0; v < sites; ++v)
             flow[v] = (later[v] - now.points[v]).dot(vertex_normal[v]);
@@ -386,14 +382,12 @@ Rows WaveCopy::waves(const State& state, const WaveField& field, const WavePlan&
             for (const Foot& foot : state.places)
                 there.emplace_back(foot.face < 0 ? Point(Point::Zero())
                                                  : at_foot(moves, triangles[foot.face], foot.weights));
-            for (int round = 0; round < state.rounds; ++round)
-                there = umbrella_step(copy_graph_, there, 0.5);
+            there = umbrella_steps(copy_graph_, std::move(there), 0.5, state.rounds);
             for (int i = 0; i < rows; ++i)
                 result(i, k) = there[state.vertices[i]].dot(state.normals[i]);
             return;
         }
-        for (int round = 0; round < state.rounds; ++round)
-            moves = umbrella_step(graph_, moves, 0.5);
+        moves = umbrella_steps(graph_, std::move(moves), 0.5, state.rounds);
         for (int i = 0; i < rows; ++i) {
             const Foot& foot = state.feet[i];
             result(i, k) = at_foot(moves, triangles[foot.face], foot.weights).dot(state.normals[i]);

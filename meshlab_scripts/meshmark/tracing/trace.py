@@ -252,9 +252,9 @@ def _named(best: Reading, ledger: Ledger, tries: int, facts: dict[str, object]) 
     name = ledger.name(best.recipient)
     like: Likeness | None = facts["likeness"]
     model = best.original or (like.model if like and like.alike else None)
+    facts["model"] = model.name if model else None
     where = "" if best.piece == "the whole file" else f" In {best.piece}."
     if model is None or not ledger.has(model.id, best.recipient):
-        facts["model"] = model.name if model else None
         text = (
             f"The message of {name} reads (p {_p(facts['p'])}), but by its shape it is none of the models that {name} "
             f"has. Who has a copy can put its mark into another object: so nobody is named.{where}"
@@ -264,7 +264,6 @@ def _named(best: Reading, ledger: Ledger, tries: int, facts: dict[str, object]) 
     mixed = best.runner_up_p * tries < PROVEN
     if mixed:
         text += f" A second recipient reads beyond doubt, too (p {_p(best.runner_up_p * tries)}): copies were mixed."
-    facts["model"] = model.name
     return Trace(Answer.NAME, text, recipient=name, mixed=mixed, **facts)
 
 
