@@ -59,6 +59,11 @@ class Window:
     def find(self, title: str) -> str:
         return xdotool("search", "--onlyvisible", "--name", title)
 
+    def focus(self, window: str) -> str:
+        """Gives it the keys. By way of the window manager, so after what that does itself as a dialog closes."""
+        xdotool("windowactivate", "--sync", window)
+        return wait_for("the focus", lambda: xdotool("getwindowfocus") == window and window)
+
     def windows(self) -> set[str]:
         return set(xdotool("search", "--onlyvisible", "--pid", str(self.program.pid)).split())
 
@@ -70,7 +75,8 @@ class Window:
     def open_dialog(self, filter_name: str) -> None:
         """Ctrl+F, the filter's name, and the first that is offered."""
         before = self.windows()
-        xdotool("windowactivate", "--sync", self.main, "key", "ctrl+f")
+        self.focus(self.main)
+        xdotool("key", "ctrl+f")
         search = wait_for("the search box", lambda: self.windows() - before).pop()
         xdotool("type", "--delay", "20", filter_name)
 
@@ -82,8 +88,7 @@ class Window:
         self.picture("search")
         xdotool("key", "Down")
         xdotool("key", "Return")
-        dialog = wait_for("the dialog", lambda: self.find(f"^{filter_name}$"))
-        xdotool("windowfocus", "--sync", dialog)
+        self.focus(wait_for("the dialog", lambda: self.find(f"^{filter_name}$")))
 
     def fill(self, filter_name: str, values: dict[str, str]) -> None:
         """Goes through the fields with Tab, from the dialog's title buttons to Apply."""
@@ -98,15 +103,15 @@ class Window:
         xdotool("key", "Tab")
         if "Report" in values:
             self.choose_file(values["Report"])
-            xdotool("windowfocus", "--sync", self.find(f"^{filter_name}$"))
+            self.focus(self.find(f"^{filter_name}$"))
         xdotool("key", "Tab", "Tab", "Tab")
         self.picture("filled")
 
     def choose_file(self, path: str) -> None:
         """By the button beside the field: MeshLab 2020.09 does not take what is typed into the field."""
         xdotool("key", "space")
-        dialog = wait_for("the file dialog", lambda: self.find("^Save$"))
-        xdotool("windowfocus", "--sync", dialog, "type", "--delay", "5", path)
+        self.focus(wait_for("the file dialog", lambda: self.find("^Save$")))
+        xdotool("type", "--delay", "5", path)
         xdotool("key", "Return")
         wait_for("the file dialog to close", lambda: not self.find("^Save$"))
 
@@ -114,7 +119,8 @@ class Window:
         xdotool("key", "space")
 
     def close_dialog(self, filter_name: str) -> None:
-        xdotool("windowfocus", "--sync", self.find(f"^{filter_name}$"), "key", "shift+Tab", "space")
+        self.focus(self.find(f"^{filter_name}$"))
+        xdotool("key", "shift+Tab", "space")
         wait_for("the dialog to close", lambda: not self.find(f"^{filter_name}$"))
 
 
@@ -128,6 +134,7 @@ def window(display: str, tmp_path: Path) -> Iterator[Window]:
             yield opened
         finally:
             opened.picture("end")
+            print(opened.log())
             opened.program.kill()
             opened.program.wait()
             manager.terminate()
