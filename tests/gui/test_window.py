@@ -59,10 +59,20 @@ class Window:
     def find(self, title: str) -> str:
         return xdotool("search", "--onlyvisible", "--name", title)
 
-    def focus(self, window: str) -> str:
-        """Gives it the keys. By way of the window manager, so after what that does itself as a dialog closes."""
-        xdotool("windowactivate", "--sync", window)
-        return wait_for("the focus", lambda: xdotool("getwindowfocus") == window and window)
+    def focus(self, window: str) -> None:
+        """Gives it the keys, for good: as a dialog closes, MeshLab and the window manager each move the focus too."""
+
+        def has_it() -> bool:
+            time.sleep(0.2)
+            return xdotool("getwindowfocus") == window
+
+        def rests() -> bool:
+            if has_it() and has_it():
+                return True
+            xdotool("windowactivate", window)
+            return False
+
+        wait_for("the focus", rests)
 
     def windows(self) -> set[str]:
         return set(xdotool("search", "--onlyvisible", "--pid", str(self.program.pid)).split())
