@@ -130,6 +130,26 @@ TEST(Judge, TheCandidateIsFound)
     EXPECT_LT(match.log10_p, alone + std::log10(100'002.0) + 1);
 }
 
+TEST(Judge, TheLayerWhoseMatchConvincesIsTheViewThatIsShown)
+{
+    Stream stream = seeded_stream(6, "judge-test");
+    Message raw = read_message("hex:0123456789abcdef");
+    raw.kind = Kind::Bits;
+    for (const int marked : {0, 1}) {
+        std::vector<LayerReading> layers(2, {Method::Waves, {}, Bits(64, 0)});
+        for (int layer : {0, 1}) {
+            layers[layer].readings.ways.resize(1);
+            layers[layer].readings.ways[0].soft =
+                layer == marked ? noisy(raw.bits, 0.2, stream) : unmarked(64, stream);
+        }
+        layers[marked].readings.match = [](const Bits&) { return -40.0; };
+        const Judgement judgement = judge(layers, 64, {raw});
+        const Judgement::View& view = judgement.views[judgement.view];
+        EXPECT_EQ(view.layer, marked);
+        EXPECT_EQ(view.soft, layers[marked].readings.ways[0].soft);
+    }
+}
+
 TEST(Judge, ListsThatDoNotFitWhole)
 {
     const std::vector<double> soft(30, 1.0);

@@ -133,6 +133,7 @@ Judgement judge(const std::vector<LayerReading>& layers, int carriers, const std
         result.views.begin();
 
     result.of_layer.resize(layers.size());
+    std::vector<std::size_t> view_of_layer(layers.size()); // the blind one of this layer alone
     for (std::size_t v = 0; v < result.views.size(); ++v) {
         Judgement::View view = result.views[v];
         if (!view.blind)
@@ -140,8 +141,10 @@ Judgement judge(const std::vector<LayerReading>& layers, int carriers, const std
         view.weight = 1 / shares; // no mask had a part in the choice of a blind way, so it has the weight of all
         Judgement::Read found = read(view, carriers, codes);
         const bool alone = static_cast<int>(view.soft.size()) == carriers;
-        if (alone)
+        if (alone) {
+            view_of_layer[view.layer] = v;
             result.of_layer[view.layer] = {std::min(0.0, found.log10_p + own_share), found.bits, found.kind};
+        }
         if (found.log10_p < result.best.log10_p) {
             result.best = std::move(found);
             result.view = v;
@@ -191,7 +194,10 @@ Judgement judge(const std::vector<LayerReading>& layers, int carriers, const std
                 if (layers[layer].readings.match) {
                     const double here = layers[layer].readings.match(masked(coded, layers[layer].mask));
                     result.match_of_layer[layer] = std::min(result.match_of_layer[layer], here);
-                    p = std::min(p, here - own_share);
+                    if (here - own_share < p) {
+                        p = here - own_share;
+                        at = view_of_layer[layer];
+                    }
                 }
         if (p < best) {
             match.runner_up = std::min(0.0, best + many);
