@@ -103,6 +103,42 @@ TEST(LocalMeans, DoNotDependOnHowTheSurfaceIsMeshed)
     }
 }
 
+/// The same integral over all pairs of faces and points.
+TEST(LocalMeans, LeaveNoFaceOut)
+{
+    const Surface& mesh = fandisk();
+    const Impression impression = impression_of(mesh, 200);
+    const double r = 0.3 * impression.likeness.size();
+    const LocalMeans got = local_means(impression.points, impression.normals, r, mesh);
+    Surface fine = mesh; // no face of it is cut up
+    AttackOptions subdivide{Attack::Subdivide, -1, 2};
+    (void)apply_attack(fine, subdivide);
+    const LocalMeans all = local_means(impression.points, impression.normals, r, fine);
+    for (std::size_t i = 0; i < impression.points.size(); ++i) {
+        double mass = 0;
+        for (const Triangle& t : fine.triangles) {
+            const Point n = scaled_normal(fine.points, t);
+            const Point middle = (fine.points[t[0]] + fine.points[t[1]] + fine.points[t[2]]) / 3;
+            const double u = 1 - (middle - impression.points[i]).squaredNorm() / (r * r);
+            if (u > 0 && n.dot(impression.normals[i]) > 0)
+                mass += u * u * n.norm() / 2;
+        }
+        EXPECT_NEAR(all.masses[i], mass, 1e-3 * mass);
+        EXPECT_NEAR(got.masses[i], mass, 0.02 * mass);
+    }
+}
+
+TEST(FarthestPoints, KnowTheNearestOfEach)
+{
+    const Points& points = fandisk().points;
+    const Spread spread = farthest_points(points, 50);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto to = [&](int chosen) { return (points[chosen] - points[i]).squaredNorm(); };
+        for (const int other : spread.chosen)
+            ASSERT_LE(to(spread.chosen[spread.nearest[i]]), to(other));
+    }
+}
+
 TEST(Impression, ItsScalesLieOnTheSurface)
 {
     const FootSearch scales(scales_of(certificate_of(bytes()).impression));

@@ -28,6 +28,25 @@ TEST(Taubin, ScalesEigenfunctionsByItsTransferFunction)
     }
 }
 
+TEST(Umbrella, SeveralSideBySideAreEachAsItIsAlone)
+{
+    const Surface bunny = weld(load("bunny00.off")).surface;
+    const EdgeGraph graph = edge_graph(bunny);
+    constexpr int count = 4;
+    std::vector<Eigen::Matrix<double, 3, count>> all(bunny.points.size());
+    std::vector<Points> alone(count, bunny.points);
+    for (std::size_t v = 0; v < all.size(); ++v)
+        for (int k = 0; k < count; ++k)
+            all[v].col(k) = alone[k][v] = bunny.points[v] * std::cos(k * static_cast<double>(v));
+    all = umbrella_steps(graph, std::move(all), 0.5, 3);
+    for (int k = 0; k < count; ++k) {
+        for (int step = 0; step < 3; ++step)
+            alone[k] = umbrella_step(graph, alone[k], 0.5);
+        for (std::size_t v = 0; v < all.size(); ++v)
+            ASSERT_EQ(all[v].col(k), alone[k][v]);
+    }
+}
+
 TEST(Taubin, SmoothsWithoutShrinking)
 {
     const Surface bunny = weld(load("bunny00.off")).surface;

@@ -168,7 +168,7 @@ Points spread_points(const SurfaceSamples& samples, int count)
     for (std::size_t i = 0; i < samples.points.size(); i += 3)
         some.push_back(samples.points[i]);
     Points result;
-    for (const int i : farthest_points(some, count))
+    for (const int i : farthest_points(some, count).chosen)
         result.push_back(some[i]);
     return result;
 }

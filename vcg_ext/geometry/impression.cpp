@@ -95,31 +95,59 @@ Impression as_stored(const Impression& impression)
     return read_impression(reader);
 }
 
-/// Points ordered by x, so that those near a place are next to each other.
-class Sweep {
+/// Points by the cube that they lie in, so that those near a place are found.
+class Cubes {
 public:
-    explicit Sweep(const Points& points) : points_(points), order_(points.size())
+    /// \param r how far is looked, usually
+    Cubes(const Points& points, double r) : points_(points), box_(bounding_box(points))
     {
+        constexpr int most = 64; // cubes along a side
+        side_ = std::max(r, box_.sizes().maxCoeff() / most);
+        counts_ = (box_.sizes() / side_).array().floor().cast<int>() + 1;
+        std::vector<int> cube;
+        for (const Point& p : points)
+            cube.push_back(number(cell(p)));
+        order_.resize(points.size());
         std::iota(order_.begin(), order_.end(), 0);
-        std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) { return points[a][0] < points[b][0]; });
-        for (const int i : order_)
-            along_.push_back(points[i][0]);
+        std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) { return cube[a] < cube[b]; });
+        first_.assign(counts_.prod() + 1, 0);
+        for (const int c : cube)
+            ++first_[c + 1];
+        std::partial_sum(first_.begin(), first_.end(), first_.begin());
     }
 
     /// Calls `found(i, squared distance)` for each point within r of p.
     template <class Found>
     void operator()(const Point& p, double r, const Found& found) const
     {
-        const auto first = std::lower_bound(along_.begin(), along_.end(), p[0] - r) - along_.begin();
-        for (auto j = static_cast<std::size_t>(first); j < along_.size() && along_[j] <= p[0] + r; ++j)
-            if (const double d = (points_[order_[j]] - p).squaredNorm(); d < r * r)
-                found(order_[j], d);
+        const Eigen::Array3i low = cell(p - Point::Constant(r));
+        const Eigen::Array3i high = cell(p + Point::Constant(r));
+        for (int z = low[2]; z <= high[2]; ++z)
+            for (int y = low[1]; y <= high[1]; ++y)
+                for (int j = first_[number({low[0], y, z})]; j < first_[number({high[0], y, z}) + 1]; ++j)
+                    if (const double d = (points_[order_[j]] - p).squaredNorm(); d < r * r)
+                        found(order_[j], d);
     }
 
 private:
+    /// The cube of a place, or the nearest one.
+    [[nodiscard]] Eigen::Array3i cell(const Point& p) const
+    {
+        const Eigen::Array3d along = ((p - box_.min()) / side_).array().floor();
+        return along.max(0).min((counts_ - 1).cast<double>()).cast<int>();
+    }
+
+    [[nodiscard]] int number(const Eigen::Array3i& cell) const
+    {
+        return (cell[2] * counts_[1] + cell[1]) * counts_[0] + cell[0];
+    }
+
     const Points& points_;
-    std::vector<int> order_;
-    std::vector<double> along_;
+    Eigen::AlignedBox3d box_;
+    double side_ = 0;
+    Eigen::Array3i counts_;
+    std::vector<int> order_; ///< by cube, then as they were
+    std::vector<int> first_; ///< of each cube in order_
 };
 
 /// Calls `take(middle, area)` for equal pieces of a triangle, none of them longer than `longest`.
@@ -145,7 +173,7 @@ void cut_up(const Points& points, const Triangle& t, double longest, const Take&
 LocalMeans local_means(const Points& points, const Points& normals, double r, const Surface& surface)
 {
     constexpr int chunk = 16384;
-    const Sweep near(points);
+    const Cubes near(points, r);
     const int faces = static_cast<int>(surface.triangles.size());
     const LocalMeans none{std::vector<double>(points.size(), 0), std::vector<double>(points.size(), 0)};
     std::vector<LocalMeans> parts(chunk_count(faces, chunk), none);
@@ -181,24 +209,17 @@ Impression impression_of(const Surface& surface, int count)
     result.likeness = likeness_of(surface);
     const double outward = signed_volume(surface, result.likeness.surface.centre) < 0 ? -1 : 1;
     const SurfaceSamples samples = sample_surface(surface, samples_a_point * count, "impression");
-    for (const int i : farthest_points(samples.points, count)) {
+    const Spread spread = farthest_points(samples.points, count);
+    for (const int i : spread.chosen) {
         result.points.push_back(samples.points[i]);
         result.normals.emplace_back(outward * samples.normals[i]);
     }
     const Points few(result.points.begin(), result.points.begin() + std::min(described, count));
     result.likeness.features = own_features(surface, few);
 
-    std::vector<int> nearest(samples.points.size());
-    for_each_index(static_cast<int>(nearest.size()), [&](int s) {
-        const auto nearer = [&](const Point& a, const Point& b) {
-            return (a - samples.points[s]).squaredNorm() < (b - samples.points[s]).squaredNorm();
-        };
-        nearest[s] = static_cast<int>(std::min_element(result.points.begin(), result.points.end(), nearer) -
-                                      result.points.begin());
-    });
-    const double area_of_a_sample = surface_area(surface) / static_cast<double>(nearest.size());
+    const double area_of_a_sample = surface_area(surface) / static_cast<double>(samples.points.size());
     result.areas.assign(count, 0);
-    for (const int i : nearest)
+    for (const int i : spread.nearest)
         result.areas[i] += area_of_a_sample;
     result.means = {std::vector<double>(count, 1), std::vector<double>(count, 0)};
 

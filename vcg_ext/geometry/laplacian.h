@@ -6,9 +6,11 @@ namespace vcg_ext {
 
 /// Row `v` of the combinatorial Laplacian (3.12) times `x`: degree times x(v) less the sum over the neighbours. The
 /// graph implies its entries: the degree on the diagonal, -1 per neighbour.
-[[nodiscard]] inline Point laplacian_row(const EdgeGraph& graph, const Points& x, int v)
+/// \param x a matrix of Eigen's per vertex
+template <class Value>
+[[nodiscard]] Value laplacian_row(const EdgeGraph& graph, const std::vector<Value>& x, int v)
 {
-    Point sum = graph.degree(v) * x[v];
+    Value sum = graph.degree(v) * x[v];
     for (const int* w = graph.begin(v); w != graph.end(v); ++w)
         sum -= x[*w];
     return sum;

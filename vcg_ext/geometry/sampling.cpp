@@ -46,21 +46,25 @@ SurfaceSamples sample_surface(const Surface& surface, int count, std::string_vie
     return samples;
 }
 
-std::vector<int> farthest_points(const Points& points, int count)
+Spread farthest_points(const Points& points, int count)
 {
-    std::vector<int> chosen;
+    Spread spread;
+    spread.nearest.assign(points.size(), 0);
     std::vector<double> distance(points.size(), std::numeric_limits<double>::infinity());
     int next = 0;
-    while (static_cast<int>(chosen.size()) < std::min<int>(count, static_cast<int>(points.size()))) {
-        chosen.push_back(next);
-        const Point& last = points[chosen.back()];
+    for (int chosen = 0; chosen < std::min(count, static_cast<int>(points.size())); ++chosen) {
+        spread.chosen.push_back(next);
+        const Point last = points[next];
         for (std::size_t i = 0; i < points.size(); ++i) {
-            distance[i] = std::min(distance[i], (points[i] - last).squaredNorm());
+            if (const double d = (points[i] - last).squaredNorm(); d < distance[i]) {
+                distance[i] = d;
+                spread.nearest[i] = chosen;
+            }
             if (distance[i] > distance[next])
                 next = static_cast<int>(i);
         }
     }
-    return chosen;
+    return spread;
 }
 
 } // namespace vcg_ext

@@ -51,7 +51,13 @@ struct SurfaceSamples {
 /// too. \param purpose see seeded_stream()
 [[nodiscard]] SurfaceSamples sample_surface(const Surface& surface, int count, std::string_view purpose);
 
-/// The numbers of `count` points each of which is as far as can be from those before it; the first is number 0.
-[[nodiscard]] std::vector<int> farthest_points(const Points& points, int count);
+/// Some points spread over all.
+struct Spread {
+    std::vector<int> chosen;  ///< their numbers among all
+    std::vector<int> nearest; ///< per point the one nearest to it, as its place in `chosen`
+};
+
+/// `count` points each of which is as far as can be from those before it; the first is number 0.
+[[nodiscard]] Spread farthest_points(const Points& points, int count);
 
 } // namespace vcg_ext

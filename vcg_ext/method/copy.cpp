@@ -34,30 +34,42 @@ Surface laid_on_original(const Surface& surface, const Registration& registratio
     return laid_by(affine ? registration.affine : registration.pose, surface, registration);
 }
 
-std::vector<Foot> feet_on_original(const Copy& copy, const Surface& laid)
+const Surface& Copy::laid() const
 {
-    constexpr double reach = 0.1; // of the original's size
-    std::vector<Foot> feet(laid.points.size());
-    for_chunks(static_cast<int>(feet.size()), 512, [&](int begin, int end) {
-        for (int v = begin; v < end; ++v)
-            feet[v] = copy.registrar.original()(laid.points[v], reach * copy.registrar.size());
-    });
-    return feet;
+    if (!laid_)
+        laid_ = laid_on_original(surface, registration);
+    return *laid_;
 }
 
-std::vector<char> places_that_are_left(const Copy& copy, const Surface& laid)
+const std::vector<Foot>& Copy::feet() const
+{
+    constexpr double reach = 0.1; // of the original's size
+    if (!feet_) {
+        const Points& points = laid().points;
+        feet_.emplace(points.size());
+        for_chunks(static_cast<int>(points.size()), 512, [&](int begin, int end) {
+            for (int v = begin; v < end; ++v)
+                (*feet_)[v] = registrar.original()(points[v], reach * registrar.size());
+        });
+    }
+    return *feet_;
+}
+
+const std::vector<char>& Copy::left() const
 {
     constexpr double reach = 0.03; // of the original's size: further than wear moves a surface
-    const FootSearch search(laid);
-    const Points& places = copy.original.points;
-    std::vector<char> left(places.size());
-    for_chunks(static_cast<int>(places.size()), 512, [&](int begin, int end) {
-        for (int v = begin; v < end; ++v) {
-            const Foot foot = search(places[v], reach * copy.registrar.size());
-            left[v] = foot.face >= 0 && !foot.on_rim ? 1 : 0;
-        }
-    });
-    return left;
+    if (!left_) {
+        const FootSearch search(laid());
+        const Points& places = original.points;
+        left_.emplace(places.size());
+        for_chunks(static_cast<int>(places.size()), 512, [&](int begin, int end) {
+            for (int v = begin; v < end; ++v) {
+                const Foot foot = search(places[v], reach * registrar.size());
+                (*left_)[v] = foot.face >= 0 && !foot.on_rim ? 1 : 0;
+            }
+        });
+    }
+    return *left_;
 }
 
 } // namespace vcg_ext

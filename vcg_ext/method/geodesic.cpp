@@ -198,9 +198,8 @@ Readings read_geodesic_copy(const Copy& copy, const Plan& plan, const MarkFrame&
     const VertexFaces around = vertex_faces(topology.points(), topology.triangles);
     const Strips strips = strips_from(std::get<StripFrames>(frame).front(), original, around, topology.sites, plan.trim,
                                       plan.options.bits);
-    const Surface laid = laid_on_original(copy);
     std::vector<double> distances;
-    for (const Foot& foot : feet_on_original(copy, laid)) {
+    for (const Foot& foot : copy.feet()) {
         double distance = -1;
         if (foot.face >= 0 && !foot.on_rim) {
             distance = 0;
@@ -209,8 +208,8 @@ Readings read_geodesic_copy(const Copy& copy, const Plan& plan, const MarkFrame&
         }
         distances.push_back(distance);
     }
-    return read_part(cut_range(distances, 0, strips.farthest, plan.trim, plan.options.bits), strips.carriers,
-                     places_that_are_left(copy, laid), plan);
+    return read_part(cut_range(distances, 0, strips.farthest, plan.trim, plan.options.bits), strips.carriers, copy.left(),
+                     plan);
 }
 
 Marking embed_geodesic(const Cover& cover, const Plan& plan, const Bits& coded, const PlacementOptions& options,

@@ -208,8 +208,7 @@ Readings read_norms_copy(const Copy& copy, const Plan& plan, const MarkFrame& fr
     const auto cut = [&](const Points& points) {
         return shells(points, std::get<ShellFrame>(frame), plan.trim, plan.options.bits);
     };
-    const Surface laid = laid_on_original(copy);
-    return read_part(cut(laid.points), cut(copy.original.points), places_that_are_left(copy, laid), plan);
+    return read_part(cut(copy.laid().points), cut(copy.original.points), copy.left(), plan);
 }
 
 void certify_norms(const Surface& original, const Plan& plan, Certificate& certificate)

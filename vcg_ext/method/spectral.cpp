@@ -380,17 +380,16 @@ Readings read_spectral_copy(const Copy& copy, const Plan& plan, const MarkFrame&
     const int count = static_cast<int>(plan.order.size());
     const Patches whole = equal_area_patches(original.points, solid_topology(original), edge_graph(original), axes,
                                              layers, count / layers, plan.trim);
-    const Surface laid = laid_on_original(copy);
     PatchReading reading;
     reading.patches = {whole.layers, whole.columns, {}};
-    for (const Foot& foot : feet_on_original(copy, laid)) {
+    for (const Foot& foot : copy.feet()) {
         int nearest = 0;
         foot.weights.maxCoeff(&nearest);
         const bool stands = foot.face >= 0 && !foot.on_rim;
         reading.patches.label.push_back(stands ? whole.label[original.triangles[foot.face][nearest]] : -1);
     }
     reading.vertices = patch_vertices(reading.patches);
-    reading.band = filtered(edge_graph(laid), about(axes.centre, laid.points));
+    reading.band = filtered(edge_graph(copy.laid()), about(axes.centre, copy.laid().points));
     for (const std::vector<int>& vertices : reading.vertices)
         reading.shapes.push_back(patch_shape(reading.band, vertices));
     reading.threshold = best_threshold(reading.shapes, vertices_of_a_shape);

@@ -294,7 +294,7 @@ void WaveCopy::look(const Copy& copy, const FootSearch& feet, State state)
     const Points vertex_normal = site_normals(now);
     std::vector<std::vector<double>> flows = processing_flows(now, vertex_normal);
     if (state.rounds > 0) { // some rounds more
-        const Points later = umbrella_steps(graph_, {now.points.begin(), now.points.begin() + sites}, 0.5,
+        const Points later = umbrella_steps(graph_, Points(now.points.begin(), now.points.begin() + sites), 0.5,
                                             std::max(1, state.rounds / 10));
         std::vector<double> flow(sites);
         for (int v = 0; v < sites; ++v)
@@ -372,27 +372,36 @@ Rows WaveCopy::waves(const State& state, const WaveField& field, const WavePlan&
         });
         return result;
     }
-    for_chunks(count, 1, [&](int k, int) {
-        const std::vector<double> wave = field.wave(k);
-        Points moves(wave.size());
-        for (std::size_t v = 0; v < wave.size(); ++v)
-            moves[v] = wave[v] * directions_[v];
+    constexpr int together = 8;
+    using Moves = Eigen::Matrix<double, 3, together>; // of a vertex, by so many waves
+    for (int first = 0; first < count; first += together) {
+        const int some = std::min(together, count - first);
+        std::vector<std::vector<double>> wave(some);
+        for_chunks(some, 1, [&](int k, int) { wave[k] = field.wave(first + k); });
+        std::vector<Moves> moves(wave[0].size(), Moves::Zero());
+        for_each_index(static_cast<int>(moves.size()), [&](int v) {
+            for (int k = 0; k < some; ++k)
+                moves[v].col(k) = wave[k][v] * directions_[v];
+        });
         if (!state.places.empty()) {
-            Points there;
-            for (const Foot& foot : state.places)
-                there.emplace_back(foot.face < 0 ? Point(Point::Zero())
-                                                 : at_foot(moves, triangles[foot.face], foot.weights));
+            std::vector<Moves> there(state.places.size(), Moves::Zero());
+            for_each_index(static_cast<int>(there.size()), [&](int v) {
+                if (const Foot& foot = state.places[v]; foot.face >= 0)
+                    there[v] = at_foot(moves, triangles[foot.face], foot.weights);
+            });
             there = umbrella_steps(copy_graph_, std::move(there), 0.5, state.rounds);
-            for (int i = 0; i < rows; ++i)
-                result(i, k) = there[state.vertices[i]].dot(state.normals[i]);
-            return;
+            for_each_index(rows, [&](int i) {
+                result.row(i).segment(first, some) =
+                    (state.normals[i].transpose() * there[state.vertices[i]]).head(some);
+            });
+            continue;
         }
         moves = umbrella_steps(graph_, std::move(moves), 0.5, state.rounds);
-        for (int i = 0; i < rows; ++i) {
-            const Foot& foot = state.feet[i];
-            result(i, k) = at_foot(moves, triangles[foot.face], foot.weights).dot(state.normals[i]);
-        }
-    });
+        for_each_index(rows, [&](int i) {
+            const Moves at = at_foot(moves, triangles[state.feet[i].face], state.feet[i].weights);
+            result.row(i).segment(first, some) = (state.normals[i].transpose() * at).head(some);
+        });
+    }
     return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include "../base/check.h"
 #include "../geometry/body.h"
+#include "../geometry/rings.h"
 #include "../method/methods.h"
 #include "../payload/code.h"
 #include "copies.h"
@@ -36,13 +37,13 @@ void refuse_marked(const Surface& original, const Key& key, DetectOptions option
 }
 
 /// Reads a copy in the original's frames, which are found once, whatever number of carriers is tried.
-LayerReader read_by_original(const Copy& copy)
+LayerReader read_by_original(std::shared_ptr<const Copy> copy)
 {
     const auto frames = std::make_shared<std::map<Method, MarkFrame>>();
     return [copy, frames](const MethodRow& method, const Plan& plan) {
         if (frames->find(method.method) == frames->end())
-            frames->emplace(method.method, find_copy(method, copy, plan));
-        return method.read_copy(copy, plan, frames->at(method.method));
+            frames->emplace(method.method, find_copy(method, *copy, plan));
+        return method.read_copy(*copy, plan, frames->at(method.method));
     };
 }
 
@@ -54,12 +55,14 @@ DetectReport detect_with_original(const Surface& surface, const Surface& origina
     options.carriers.check();
     report(progress, 0, "Registering");
     check_surface(surface);
-    const Body unmarked = body_of(original, "original");
+    Body unmarked = body_of(original, "original");
+    number_by_rings(unmarked);
     refuse_marked(original, key, options);
     const FootSearch feet(unmarked.surface);
     const Registrar registrar(feet);
     const CopyReader reader = [&](const Surface& suspect, const Registration& registration) {
-        return read_by_original({unmarked.surface, suspect, registrar, registration});
+        return read_by_original(
+            std::make_shared<const Copy>(unmarked.surface, suspect, registrar, registration));
     };
     return detect_copies(surface, registrar, reader, key, options, progress);
 }
