@@ -139,8 +139,7 @@ TEST(Judge, TheLayerWhoseMatchConvincesIsTheViewThatIsShown)
         std::vector<LayerReading> layers(2, {Method::Waves, {}, Bits(64, 0)});
         for (int layer : {0, 1}) {
             layers[layer].readings.ways.resize(1);
-            layers[layer].readings.ways[0].soft =
-                layer == marked ? noisy(raw.bits, 0.2, stream) : unmarked(64, stream);
+            layers[layer].readings.ways[0].soft = layer == marked ? noisy(raw.bits, 0.2, stream) : unmarked(64, stream);
         }
         layers[marked].readings.match = [](const Bits&) { return -40.0; };
         const Judgement judgement = judge(layers, 64, {raw});

@@ -208,8 +208,8 @@ Readings read_geodesic_copy(const Copy& copy, const Plan& plan, const MarkFrame&
         }
         distances.push_back(distance);
     }
-    return read_part(cut_range(distances, 0, strips.farthest, plan.trim, plan.options.bits), strips.carriers, copy.left(),
-                     plan);
+    return read_part(cut_range(distances, 0, strips.farthest, plan.trim, plan.options.bits), strips.carriers,
+                     copy.left(), plan);
 }
 
 Marking embed_geodesic(const Cover& cover, const Plan& plan, const Bits& coded, const PlacementOptions& options,

@@ -61,8 +61,7 @@ DetectReport detect_with_original(const Surface& surface, const Surface& origina
     const FootSearch feet(unmarked.surface);
     const Registrar registrar(feet);
     const CopyReader reader = [&](const Surface& suspect, const Registration& registration) {
-        return read_by_original(
-            std::make_shared<const Copy>(unmarked.surface, suspect, registrar, registration));
+        return read_by_original(std::make_shared<const Copy>(unmarked.surface, suspect, registrar, registration));
     };
     return detect_copies(surface, registrar, reader, key, options, progress);
 }
