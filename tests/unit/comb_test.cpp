@@ -4,6 +4,7 @@
 #include "vcg_ext/carrier/carriers.h"
 
 #include <cmath>
+#include <gtest/gtest.h>
 #include <random>
 
 using namespace vcg_ext;
