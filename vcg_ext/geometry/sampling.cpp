@@ -54,7 +54,7 @@ Spread farthest_points(const Points& points, int count)
     int next = 0;
     for (int chosen = 0; chosen < std::min(count, static_cast<int>(points.size())); ++chosen) {
         spread.chosen.push_back(next);
-        const Point last = points[next];
+        const Point& last = points[next];
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (const double d = (points[i] - last).squaredNorm(); d < distance[i]) {
                 distance[i] = d;

@@ -37,7 +37,7 @@ void refuse_marked(const Surface& original, const Key& key, DetectOptions option
 }
 
 /// Reads a copy in the original's frames, which are found once, whatever number of carriers is tried.
-LayerReader read_by_original(std::shared_ptr<const Copy> copy)
+LayerReader read_by_original(const std::shared_ptr<const Copy>& copy)
 {
     const auto frames = std::make_shared<std::map<Method, MarkFrame>>();
     return [copy, frames](const MethodRow& method, const Plan& plan) {
