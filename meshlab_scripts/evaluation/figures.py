@@ -8,11 +8,13 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.ticker import MaxNLocator
 
 from .curves import error_rates, false_positives
 from .jobs import METHODS
 from .protocol import Spec
 from .results import select
+from .tables import FOUND
 
 mpl.use("Agg")
 plt.rcParams.update({"font.size": 9, "axes.titlesize": 9, "figure.constrained_layout.use": True})
@@ -34,6 +36,9 @@ LABELS = {
     "bits": "bits",
     "strength": "strength α",
     "detection_ratio": "detection ratio",
+    "log10_p": "log10 p, message known",
+    "log10_p_alone": "log10 p, key alone",
+    "log10_p_original": "log10 p, with the original",
     "mrms_relative": "MRMS over the diagonal",
     "msdm": "MSDM",
 }
@@ -43,7 +48,13 @@ AMOUNTS = {
     "Quantize": "bits per axis",
     "Resample": "vertices kept, as a part",
     "Crop": "part of the faces removed",
+    "Draco": "bits a coordinate",
+    "Blender remesh": "voxel over the diagonal",
+    "Blender decimate": "part of the faces left",
+    "Hollow": "wall over the diagonal",
 }
+ITERATIONS = {"Ten": "steps passed"}
+HARDER_BELOW = {"Quantize", "Resample", "Draco", "Blender decimate"}
 
 
 def figure(spec: Spec, frame: pd.DataFrame, path: Path) -> bool:
@@ -66,13 +77,15 @@ def figure(spec: Spec, frame: pd.DataFrame, path: Path) -> bool:
                 _line(axis, rows[rows[lines] == value], x, spec["y"], name, _style(name, number))
         axis.set_title(_name(panels, panel))
         attack = chosen["attack"].iloc[0]
-        axis.set_xlabel(AMOUNTS.get(attack, LABELS["amount"]) if x == "amount" else LABELS[x])
+        axis.set_xlabel((AMOUNTS if x == "amount" else ITERATIONS).get(attack, LABELS[x]))
         axis.set_ylabel(spec.get("label") or LABELS[spec["y"]])
         if spec.get("y") == "detection_ratio":
             axis.set_ylim(0.35, 1.03)
             axis.axhline(0.5, color="0.6", linewidth=0.6, linestyle=":")
-        axis.locator_params(axis="x", nbins=5)
-        if attack in {"Quantize", "Resample"} and x == "amount":
+        if spec.get("y", "").startswith("log10_p"):
+            axis.axhline(FOUND, color="0.4", linewidth=0.8, linestyle=":")
+        axis.xaxis.set_major_locator(MaxNLocator(5, integer=x == "iterations"))
+        if attack in HARDER_BELOW and x == "amount":
             axis.invert_xaxis()  # harder attacks on the right, as in the other figures
     _finish(axes, path)
     return True
@@ -107,12 +120,18 @@ def error_curves(frame: pd.DataFrame, experiment: str, path: Path) -> None:
 
 
 def _values(rows: pd.DataFrame, column: str) -> list:
-    values = sorted(rows[column].unique())
+    values = sorted(rows[column].unique(), key=_number if column == "limits" else None)
     return [method for method in METHODS if method in values] if column == "method" else values
 
 
+def _number(limits: str) -> float:
+    """The first limit's, to sort by."""
+    return float(limits.split()[0].partition("<=")[2] or 0)
+
+
 def _name(column: str, value: object) -> str:
-    return {"bits": f"{value} bits", "strength": f"α = {value}"}.get(column, str(value))
+    limits = str(value).replace("mrms_relative", "MRMS").replace("msdm", "MSDM").replace("<=", " at most ")
+    return {"bits": f"{value} bits", "limits": limits, "strength": f"α = {value}"}.get(column, str(value))
 
 
 def _style(name: str, number: int) -> dict:

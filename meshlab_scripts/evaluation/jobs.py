@@ -20,12 +20,14 @@ METHODS = {
     "ProVar": ("Geodesic", "Variance"),
     "Spectral": ("Spectral", "Mean"),
 }
+PAYLOADS = ("bits", "id")
 
 
 @dataclass(frozen=True)
 class Job:
-    """Kinds: `embed` marks a mesh and measures the mark; `attack` attacks the marked mesh and reads the mark;
-    `null` looks for the mark in the unmarked mesh; `align` tells how far an attack moves the mesh's frame.
+    """Kinds: `embed` marks a mesh and measures the mark; `attack` attacks the marked mesh, or sends it through a
+    channel, and reads the mark; `null` looks for the mark in the unmarked mesh; `align` tells how far an attack moves
+    the mesh's frame.
     """
 
     kind: str
@@ -41,6 +43,8 @@ class Job:
     attack: str = ""
     amount: float = -1
     iterations: int = -1
+    original: bool = False  # the mark is also read with the unmarked mesh at hand
+    payload: str = "bits"  # the message: as many bits as carriers, or an `id` of 32, which the key alone can prove
     unit: str = ""  # of the amount: the plugin's own, or `mean norm` where it is in distances from the centre
 
     @property
@@ -51,7 +55,7 @@ class Job:
     @property
     def mark(self) -> "Job":
         """The job that makes the mesh that this one attacks."""
-        return replace(self, kind="embed", attack="", amount=-1, iterations=-1, unit="")
+        return replace(self, kind="embed", attack="", amount=-1, iterations=-1, unit="", original=False)
 
     @property
     def secret(self) -> str:
@@ -62,6 +66,8 @@ class Job:
     def message(self) -> str:
         """The message that goes with the key, as the plugin takes it."""
         digest = hashlib.shake_256(f"evaluation message {self.key}".encode()).digest(self.bits // 8 + 1)
+        if self.payload == "id":
+            return f"id:{int.from_bytes(digest[:4])}"
         return "bits:" + "".join(f"{byte:08b}" for byte in digest)[: self.bits]
 
 

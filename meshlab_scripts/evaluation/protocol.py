@@ -2,9 +2,11 @@
 """A protocol file: experiments, each a grid of jobs, and the tables and figures that show them.
 
 title, about, meshes, keys, trim
-[attacks.NAME]   attack, and lists of amounts, iterations; unit = "mean norm" for amounts in mean distances
-                 from the centre
+[attacks.NAME]   attack: one of the plugin's, or a channel (channels/); lists of amounts, iterations;
+                 unit = "mean norm" for amounts in mean distances from the centre
 [[experiments]]  name; lists of methods, bits, strengths or limits (the strongest mark that keeps them), attacks;
+                 payload = "id": a message of 32 bits, which the key alone can prove, in place of one bit a carrier;
+                 original = true: attacked marks are read with the original, too;
                  nulls: how many keys to look for in the unmarked mesh; align = true: frames under the attacks;
                  meshes, trim where they differ from the protocol's;
                  published.WHOSE.ATTACK: the bit error rates that somebody else had, in the order of its amounts
@@ -22,7 +24,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from .jobs import METHODS, Job, digest, mesh_file
+from .jobs import METHODS, PAYLOADS, Job, digest, mesh_file
 
 Spec = dict[str, Any]
 
@@ -30,7 +32,8 @@ FIELDS = {field.name for field in fields(Job)}
 # What each part of the file must have, and what it may have.
 PROTOCOL = {"title", "meshes", "keys", "experiments"}, {"about", "trim", "attacks", "figures", "tables"}
 ATTACK = {"attack"}, {"amounts", "iterations", "unit"}
-MARKS = {"name", "methods", "bits"}, {"strengths", "limits", "attacks", "nulls", "meshes", "trim", "published"}
+MARKS = {"name", "methods", "bits"}, {"strengths", "limits", "attacks", "nulls", "meshes", "trim", "published",
+                                     "payload", "original"}  # fmt: skip
 ALIGNMENT = {"name", "align", "attacks"}, {"meshes"}
 FIGURE = {"name", "title", "experiment", "x"}, {"series", "y", "ys", "panels", "lines", "label", "where"}
 TABLE = {"name", "title", "experiment", "rows"}, {"columns", "each", "published", "timed"}
@@ -86,7 +89,12 @@ class Protocol:
         keys = range(self.keys)
         if experiment.get("align"):
             return [(name, Job(kind="align", key=key, **inputs, **attack)) for key in keys for name, attack in attacks]
-        inputs = {**inputs, "trim": float(experiment.get("trim", self.trim))}
+        inputs = {
+            **inputs,
+            "trim": float(experiment.get("trim", self.trim)),
+            "payload": experiment.get("payload", "bits"),
+        }
+        attacks = [(name, {**attack, "original": experiment.get("original", False)}) for name, attack in attacks]
         strengths = [{"strength": float(strength)} for strength in experiment.get("strengths", [])]
         strengths += [{"limits": tuple(sorted(limits.items()))} for limits in experiment.get("limits", [])]
         jobs = []
@@ -162,6 +170,7 @@ def _check(spec: Spec) -> None:
         _check_keys(where, experiment, ALIGNMENT if experiment.get("align") else MARKS)
         _check_names(where, "attack", experiment.get("attacks", []), attacks)
         _check_names(where, "method", experiment.get("methods", []), METHODS)
+        _check_names(where, "payload", [experiment.get("payload", "bits")], PAYLOADS)
         for whose, rates in experiment.get("published", {}).items():
             _check_names(f"{where}, published.{whose}", "attack", rates, attacks)
             for name, errors in rates.items():

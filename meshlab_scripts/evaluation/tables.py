@@ -84,12 +84,9 @@ def robustness(frame: pd.DataFrame, experiment: str, value: str, digits: int, pu
     """Mean of a result after every attack and amount, a column for each method and for each who published it; empty
     where there are no attacks.
     """
-    chosen = frame[(frame["experiment"] == experiment) & (frame["kind"] == "attack") & (frame["error"] == "")]
-    choices = chosen.groupby("method")[["bits", "strength", "limits"]].nunique().max()
-    varied = list(choices[choices > 1].index)
+    chosen, varied, methods = _attacked(frame, experiment)
     keys = ["mesh", *varied, "series", "amount", "iterations"]
-    methods = [method for method in METHODS if method in set(chosen["method"])]
-    if not methods:
+    if not methods or value not in chosen or chosen[value].isna().all():
         return ""
     lines = [["mesh", *varied, "attack", "amount", "iterations", *methods, *published]]
     for at, row in chosen.pivot_table(index=keys, columns="method", values=value).iterrows():
@@ -97,6 +94,33 @@ def robustness(frame: pd.DataFrame, experiment: str, value: str, digits: int, pu
         cells = [row.get(method, math.nan) for method in methods]
         cells += [known.get(at[-3:], math.nan) for known in published.values()]
         lines.append([*labels, *("–" if math.isnan(cell) else f"{cell:.{digits}f}" for cell in cells)])
+    return grid(lines)
+
+
+def _attacked(frame: pd.DataFrame, experiment: str) -> tuple[pd.DataFrame, list[str], list[str]]:
+    """The attacked marks, what else than the method varies between marks, and the methods."""
+    chosen = frame[(frame["experiment"] == experiment) & (frame["kind"] == "attack") & (frame["error"] == "")]
+    choices = chosen.groupby("method")[["bits", "strength", "limits"]].nunique().max()
+    varied = list(choices[choices > 1].index)
+    return chosen, varied, [method for method in METHODS if method in set(chosen["method"])]
+
+
+FOUND = -6  # log10 p from which a mark is called found
+
+
+def found(frame: pd.DataFrame, experiment: str, values: list[str]) -> str:
+    """Per cent of the attacked marks that are found, by attack, over meshes, keys and amounts: for each of the values
+    of log10 p, with strokes between. Marks that could not be made are in no cell. Empty where there are no attacks.
+    """
+    chosen, varied, methods = _attacked(frame, experiment)
+    values = [value for value in values if value in chosen and chosen[value].notna().any()]
+    if not methods or not values:
+        return ""
+    shares = chosen[values].lt(FOUND).groupby([chosen[name] for name in [*varied, "series", "method"]]).mean() * 100
+    lines = [[*varied, "attack", *methods]]
+    for at in dict.fromkeys(index[:-1] for index in shares.index):
+        cells = [shares.loc[(*at, method)] if (*at, method) in shares.index else [] for method in methods]
+        lines.append([*map(str, at), *(" / ".join(f"{share:.0f}" for share in cell) or "–" for cell in cells)])
     return grid(lines)
 
 

@@ -9,10 +9,13 @@ from pathlib import Path
 
 import numpy as np
 import pymeshlab
-from meshmark import Refused, plugin
+from meshmark import Refused, host, plugin
+from meshmark.formats import weld
 from meshmark.host import Value
 
 from . import frames
+from .channels import CHANNELS, Shape
+from .channels.shape import Passage
 from .filters import Numbers, apply, opened, save
 from .jobs import METHODS, Job, Site, mesh_file
 
@@ -50,13 +53,14 @@ def embed(job: Job, site: Site) -> Numbers:
 
 
 def attack(job: Job, site: Site) -> Numbers:
-    """Attacks the marked mesh and reads the mark."""
+    """Attacks the marked mesh and reads the mark; on request with the original, too."""
     marked = _marked(job.mark, site)
     if not marked.exists():
         embed(job.mark, site)
     with opened(marked) as meshes:
         results = _attack(meshes, job)
-        return {name: results[name] for name in ("vertices", "faces")} | _read(meshes, job)
+        found = {name: results[name] for name in ("vertices", "faces")} | _read(meshes, job)
+        return found | _read_with_original(meshes, job, site) if job.original else found
 
 
 def null(job: Job, site: Site) -> Numbers:
@@ -97,7 +101,22 @@ def _read(meshes: pymeshlab.MeshSet, job: Job) -> Numbers:
     }
 
 
+def _read_with_original(meshes: pymeshlab.MeshSet, job: Job, site: Site) -> Numbers:
+    suspect = meshes.current_mesh_id()
+    host.read(meshes, mesh_file(site.meshes, job.mesh))
+    original = meshes.current_mesh_id()
+    meshes.set_current_mesh(suspect)
+    found = apply(meshes, plugin.DETECT_WITH_ORIGINAL, expected=job.message, original=original, **_carriers(job))
+    return {
+        "detection_ratio_original": found["detection_ratio"],
+        "log10_p_original": math.log10(found["p_value"]),
+        "log10_p_alone_original": math.log10(found["p_message"]),  # the original and the key, no message
+    }
+
+
 def _attack(meshes: pymeshlab.MeshSet, job: Job) -> Numbers:
+    if job.attack in CHANNELS:
+        return _pass_through(meshes, job)
     amount = job.amount
     if job.unit == "mean norm":
         points = meshes.current_mesh().vertex_matrix()
@@ -105,6 +124,16 @@ def _attack(meshes: pymeshlab.MeshSet, job: Job) -> Numbers:
         amount *= norms.mean() / norms.max()
     values = {"attack": job.attack, "amount": amount, "iterations": job.iterations, "seed": job.key}
     return apply(meshes, plugin.ATTACK, **values)
+
+
+def _pass_through(meshes: pymeshlab.MeshSet, job: Job) -> Numbers:
+    """What comes out of a channel is a new layer, the current one."""
+    mesh = meshes.current_mesh()
+    sent = Shape(mesh.vertex_matrix().copy(), mesh.face_matrix().copy())
+    got = CHANNELS[job.attack](sent, Passage(job.amount, job.iterations, job.key))
+    points, number = weld(got.points)
+    meshes.add_mesh(pymeshlab.Mesh(points, number[got.faces].astype(np.int32)))
+    return {"vertices": len(points), "faces": len(got.faces)}
 
 
 def _frames(meshes: pymeshlab.MeshSet) -> dict[str, tuple[frames.Array, frames.Array]]:
