@@ -7,9 +7,9 @@ from pathlib import Path
 import matplotlib as mpl
 import numpy as np
 import pymeshlab
-from evaluation import plugin
 from matplotlib import pyplot as plt
 from matplotlib.collections import PolyCollection
+from meshmark import plugin
 from scipy.sparse import coo_matrix, csr_matrix, diags
 from tqdm import tqdm
 
@@ -53,8 +53,14 @@ def coefficients(graph: csr_matrix, band: np.ndarray, patch: np.ndarray) -> np.n
     return spectrum @ axes[:, ::-1]
 
 
+def opened(path: Path) -> pymeshlab.MeshSet:
+    meshes = pymeshlab.MeshSet()
+    meshes.load_new_mesh(str(path))
+    return meshes
+
+
 def marked(path: Path, key: str, bit: int) -> pymeshlab.MeshSet:
-    meshes = plugin.opened(path)
+    meshes = opened(path)
     meshes.apply_filter(
         plugin.EMBED, method="Spectral", message="bits:" + str(bit) * BITS, bits=BITS, trim=TRIM, key=key
     )
@@ -109,7 +115,7 @@ def main() -> None:
     plugin.load(arguments.plugin)
     arguments.output.mkdir(parents=True, exist_ok=True)
 
-    states = {"unmarked": plugin.opened(arguments.mesh)}
+    states = {"unmarked": opened(arguments.mesh)}
     for bit in (0, 1):
         states[f"message {bit}..."] = marked(arguments.mesh, arguments.key, bit)
     reader = states["message 0..."]

@@ -14,14 +14,17 @@ from .store import Store
 from .work import run
 
 
-def run_missing(jobs: list[Job], site: Site, store: Store, scheduler: str | None) -> None:
+def run_missing(jobs: list[Job], site: Site, store: Store, scheduler: str | None, title: str = "") -> None:
     """Runs the jobs that the store has no result of, each after the one that makes its marked mesh."""
     by_name = {job.name: job for job in jobs}
     done = store.get(jobs)
     missing = [job for name, job in by_name.items() if name not in done]
     if not missing:
         return
-    with _client(scheduler) as client, tqdm(total=len(by_name), initial=len(done), unit="job", smoothing=0.05) as bar:
+    with (
+        _client(scheduler) as client,
+        tqdm(desc=title, total=len(by_name), initial=len(done), unit="job", smoothing=0.05) as bar,
+    ):
         futures: dict[str, Future] = {}
         for job in sorted(missing, key=lambda job: job.kind != "embed"):
             futures[job.name] = client.submit(run, job, site, futures.get(job.mark.name), key=job.name)

@@ -105,6 +105,20 @@ def test_killed_run_goes_on_where_it_was(smoke: tuple[Path, pd.DataFrame], tmp_p
         assert (resumed / path.relative_to(whole)).read_bytes() == path.read_bytes(), path.name
 
 
+def test_all_of_what_is_done_runs_nothing(smoke: tuple[Path, pd.DataFrame]) -> None:
+    work, _ = smoke
+    before = stored(work)
+    subprocess.run(
+        [*command("all", work), "--only", "smoke", "--only", "texture", "--report-only"], check=True, timeout=300
+    )
+    assert stored(work) == before
+    page = (work / "all.md").read_text(encoding="utf-8")
+    assert "- smoke: [report](smoke/report.md)" in page
+    assert "## texture: " in page
+    assert "not run yet" in page
+    assert "thesis-ch5" not in page
+
+
 def test_job_that_fails_is_recorded_and_the_rest_goes_on(tmp_path: Path) -> None:
     protocol = tmp_path / "failing.toml"
     protocol.write_text(
