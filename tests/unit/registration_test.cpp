@@ -81,6 +81,21 @@ TEST(Registration, FindsASimilarityExactly)
     }
 }
 
+TEST(Registration, FindsACopyOfAnotherUnitThatLiesOnTheOriginal)
+{
+    const Surface original = load("fandisk.off");
+    for (const double unit : {0.001, 0.01, 25.4}) {
+        Surface copy = original;
+        const Point place = original.points[17]; // where a small one is near the original as it is
+        for (Point& p : copy.points)
+            p = place + unit * (p - place);
+        const Registration found = registered(copy, original);
+        ASSERT_TRUE(found.found) << unit;
+        EXPECT_NEAR(found.scale() / unit, 1, 1e-6) << unit;
+        EXPECT_LT(error_of(found.pose, copy, original), 1e-6) << unit;
+    }
+}
+
 TEST(Registration, FindsAMirrorImage)
 {
     const Surface original = load("fandisk.off");

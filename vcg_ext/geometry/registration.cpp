@@ -20,6 +20,7 @@ constexpr double far = 0.08;      ///< further from the original than this is al
 constexpr double sure = 0.02;     ///< mean of min(distance, far) / far below which no other pose is looked at
 constexpr double accepted = 0.25; ///< and below which a pose may be taken
 constexpr double least_overlap = 0.97;
+constexpr double least_extent = 0.1; ///< what is posed smaller than this lies near the original anywhere
 constexpr int samples_to_score = 300;
 constexpr int samples_to_polish = 600;
 constexpr int samples_to_judge = 1500;
@@ -41,8 +42,19 @@ struct Scored {
     [[nodiscard]] bool fits() const { return score < accepted && overlap > least_overlap; }
 };
 
+/// Diagonal of the box around the first of these points, where the pose puts them.
+double extent_of(const Points& points, int count, const Eigen::Affine3d& pose)
+{
+    Eigen::AlignedBox3d box;
+    for (int i = 0; i < count; ++i)
+        box.extend(pose * points[i]);
+    return box.diagonal().norm();
+}
+
 Scored scored(const FootSearch& original, double size, const Points& points, int count, const Hypothesis& hypothesis)
 {
+    if (extent_of(points, count, hypothesis.pose) < least_extent * size)
+        return {1, 0, hypothesis.by, hypothesis.pose};
     Scored result{0, 0, hypothesis.by, hypothesis.pose};
     for (const Foot& foot : feet_of(original, points, count, hypothesis.pose, far * size)) {
         result.score += (foot.face < 0 ? 1 : foot.distance / (far * size)) / count;
