@@ -51,6 +51,27 @@ TEST(Ray, FarthestOfSeveralWallsFromEitherSide)
     expect_inside(s, *hit);
 }
 
+TEST(Ray, MeetsTheSameFaceInAnyUnit)
+{
+    const Surface surface = load("fandisk.off");
+    Point origin = Point::Zero();
+    for (const Point& p : surface.points)
+        origin += p / static_cast<double>(surface.points.size());
+    for (const Point& direction : {Point(1, 2, 3), Point(-3, 1, 0.5), Point(0.2, -1, -0.7)}) {
+        const auto hit = farthest_hit(surface, origin, direction);
+        ASSERT_TRUE(hit);
+        for (const double unit : {0x1p-30, 0x1p-10, 0x1p20}) {
+            Surface other = surface;
+            for (Point& p : other.points)
+                p *= unit;
+            const auto same = farthest_hit(other, unit * origin, direction);
+            ASSERT_TRUE(same) << unit;
+            EXPECT_EQ(same->face, hit->face) << unit;
+            EXPECT_EQ(same->position, unit * hit->position) << unit;
+        }
+    }
+}
+
 TEST(Ray, MissesWhatLiesBehindOrBeside)
 {
     const Surface s = shapes::box(1, 1, 1);
