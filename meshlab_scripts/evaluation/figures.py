@@ -19,15 +19,15 @@ from .tables import FOUND
 mpl.use("Agg")
 plt.rcParams.update({"font.size": 9, "axes.titlesize": 9, "figure.constrained_layout.use": True})
 
-# The family gives colour (its brightness differs too) and marker; variance is dashed and hollow.
+# The family gives colour (its brightness differs too), marker and strokes; variance is dashed and hollow.
 FAMILIES = {
-    "Layered": ("#762a83", "P"),
-    "Waves": ("#000000", "v"),
-    "L-M": ("#08306b", "o"),
-    "QSP": ("#d95f0e", "s"),
-    "Cho": ("#636363", "^"),
-    "Pro": ("#1b7837", "D"),
-    "Spectral": ("#b2182b", "X"),
+    "Layered": ("#762a83", "P", "-"),
+    "Waves": ("#000000", "v", "-"),
+    "L-M": ("#08306b", "o", "-"),
+    "QSP": ("#d95f0e", "s", (0, (6, 1))),
+    "Cho": ("#636363", "^", (0, (1, 1))),
+    "Pro": ("#1b7837", "D", (0, (4, 1, 1, 1))),
+    "Spectral": ("#b2182b", "X", (0, (8, 1, 1, 1, 1, 1))),
 }
 OTHERS = [("#000000", "v"), ("#08306b", "o"), ("#d95f0e", "s"), ("#1b7837", "D"), ("#636363", "^"), ("#762a83", "P")]
 LABELS = {
@@ -54,7 +54,8 @@ AMOUNTS = {
     "Hollow": "wall over the diagonal",
 }
 ITERATIONS = {"Ten": "steps passed"}
-HARDER_BELOW = {"Quantize", "Resample", "Draco", "Blender decimate"}
+IN_BITS = {"Quantize", "Draco"}
+HARDER_BELOW = IN_BITS | {"Resample", "Blender decimate"}
 
 
 def figure(spec: Spec, frame: pd.DataFrame, path: Path) -> bool:
@@ -84,7 +85,7 @@ def figure(spec: Spec, frame: pd.DataFrame, path: Path) -> bool:
             axis.axhline(0.5, color="0.6", linewidth=0.6, linestyle=":")
         if spec.get("y", "").startswith("log10_p"):
             axis.axhline(FOUND, color="0.4", linewidth=0.8, linestyle=":")
-        axis.xaxis.set_major_locator(MaxNLocator(5, integer=x == "iterations"))
+        axis.xaxis.set_major_locator(MaxNLocator(5, integer=x == "iterations" or attack in IN_BITS))
         if attack in HARDER_BELOW and x == "amount":
             axis.invert_xaxis()  # harder attacks on the right, as in the other figures
     _finish(axes, path)
@@ -136,14 +137,14 @@ def _name(column: str, value: object) -> str:
 
 def _style(name: str, number: int) -> dict:
     family = next((family for family in FAMILIES if name.startswith(family)), None)
-    color, marker = FAMILIES[family] if family else OTHERS[number % len(OTHERS)]
+    color, marker, strokes = FAMILIES[family] if family else (*OTHERS[number % len(OTHERS)], "-")
     hollow = name.endswith("Var") or (family is None and number % 2 == 1)
     return {
         "color": color,
         "marker": marker,
-        "markersize": 4,
+        "markersize": 5,
         "linewidth": 1,
-        "linestyle": "--" if hollow else "-",
+        "linestyle": "--" if hollow else strokes,
         "markerfacecolor": "white" if hollow else color,
     }
 
