@@ -86,7 +86,7 @@ def robustness(frame: pd.DataFrame, experiment: str, value: str, digits: int, pu
     """
     chosen, varied, methods = _attacked(frame, experiment)
     keys = ["mesh", *varied, "series", "amount", "iterations"]
-    if not methods or value not in chosen or chosen[value].isna().all():
+    if value not in chosen or chosen[value].isna().all():
         return ""
     lines = [["mesh", *varied, "attack", "amount", "iterations", *methods, *published]]
     for at, row in chosen.pivot_table(index=keys, columns="method", values=value).iterrows():
@@ -98,11 +98,12 @@ def robustness(frame: pd.DataFrame, experiment: str, value: str, digits: int, pu
 
 
 def _attacked(frame: pd.DataFrame, experiment: str) -> tuple[pd.DataFrame, list[str], list[str]]:
-    """The attacked marks, what else than the method varies between marks, and the methods."""
-    chosen = frame[(frame["experiment"] == experiment) & (frame["kind"] == "attack") & (frame["error"] == "")]
+    """The attacked marks, what else than the method varies between marks, and the methods, with those of no mark."""
+    asked = frame[(frame["experiment"] == experiment) & (frame["kind"] == "attack")]
+    chosen = asked[asked["error"] == ""]
     choices = chosen.groupby("method")[["bits", "strength", "limits"]].nunique().max()
     varied = list(choices[choices > 1].index)
-    return chosen, varied, [method for method in METHODS if method in set(chosen["method"])]
+    return chosen, varied, [method for method in METHODS if method in set(asked["method"])]
 
 
 FOUND = -6  # log10 p from which a mark is called found
@@ -114,7 +115,7 @@ def found(frame: pd.DataFrame, experiment: str, values: list[str]) -> str:
     """
     chosen, varied, methods = _attacked(frame, experiment)
     values = [value for value in values if value in chosen and chosen[value].notna().any()]
-    if not methods or not values:
+    if not values:
         return ""
     shares = chosen[values].lt(FOUND).groupby([chosen[name] for name in [*varied, "series", "method"]]).mean() * 100
     lines = [[*varied, "attack", *methods]]

@@ -23,7 +23,7 @@ from evaluation.curves import binomial_tail, equal_error_rate, false_positives  
 from evaluation.frames import WAYS, frames, shift  # noqa: E402
 from evaluation.jobs import Job, Site  # noqa: E402
 from evaluation.protocol import ProtocolError, read_protocol  # noqa: E402
-from evaluation.tables import robustness  # noqa: E402
+from evaluation.tables import found, robustness  # noqa: E402
 
 
 def command(protocol: str | Path, work: Path) -> list[str]:
@@ -249,6 +249,35 @@ def test_published_rates_stand_beside_ours() -> None:
     ]  # fmt: skip
     text = robustness(pd.DataFrame(rows), "robustness", "detection_ratio", 2, protocol.published("layers"))
     assert text.splitlines()[2:] == ["| m | loop |  |  | 0.75 | 0.84 |", "| m | similarity |  |  | 0.75 | – |"]
+
+
+def test_share_of_marks_that_are_found() -> None:
+    row = {
+        "experiment": "e",
+        "kind": "attack",
+        "error": "",
+        "mesh": "m",
+        "series": "noise",
+        "bits": 64,
+        "strength": 0.0,
+    }
+    rows = [
+        {**row, "method": method, "limits": limits, "log10_p": p, "log10_p_alone": alone, "log10_p_original": math.nan}
+        for method, limits, p, alone in [
+            ("Waves", "msdm<=0.1", -7.0, -5.0),
+            ("Waves", "msdm<=0.1", -5.9, 0.0),
+            ("Waves", "msdm<=0.2", -19.0, -9.0),
+            ("L-MMean", "msdm<=0.2", 0.0, 0.0),
+        ]
+    ] + [{**row, "method": "Layered", "limits": "msdm<=0.2", "error": "No strength"}]
+    text = found(pd.DataFrame(rows), "e", ["log10_p", "log10_p_alone", "log10_p_original"])
+    assert text.splitlines() == [
+        "| limits | attack | Layered | Waves | L-MMean |",
+        "| --- | ---: | ---: | ---: | ---: |",
+        "| msdm<=0.1 | noise | – | 50 / 0 | – |",
+        "| msdm<=0.2 | noise | – | 100 / 100 | 0 / 0 |",
+    ]
+    assert found(pd.DataFrame(rows[-1:]), "e", ["log10_p"]) == ""
 
 
 def test_a_report_of_nothing_says_so(tmp_path: Path) -> None:
