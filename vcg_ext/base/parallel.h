@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
+#include <utility>
 #include <vector>
 
 namespace vcg_ext {
@@ -56,12 +58,27 @@ Value ordered_fold(int count, const Value& zero, const Take& take, const Join& j
         Value value = zero;
         for (int i = begin; i < end; ++i)
             take(value, i);
-        partial[begin / chunk] = value;
+        partial[begin / chunk] = std::move(value);
     });
     Value total = zero;
     for (const Value& part : partial)
         join(total, part);
     return total;
+}
+
+/// The i of [0, count) for which `wanted(i)` holds, in ascending order.
+template <class Wanted>
+std::vector<int> indices_where(int count, const Wanted& wanted)
+{
+    return ordered_fold(
+        count, std::vector<int>(),
+        [&wanted](std::vector<int>& found, int i) {
+            if (wanted(i))
+                found.push_back(i);
+        },
+        [](std::vector<int>& found, const std::vector<int>& part) {
+            found.insert(found.end(), part.begin(), part.end());
+        });
 }
 
 /// Sum of `term(i)` over [0, count).
@@ -80,6 +97,26 @@ Value ordered_maximum(int count, const Value& least, const Term& term)
     const auto raise = [](Value& largest, const Value& other) { largest = std::max(largest, other); };
     return ordered_fold(
         count, least, [&](Value& largest, int i) { raise(largest, term(i)); }, raise);
+}
+
+struct Range {
+    double least = std::numeric_limits<double>::infinity();
+    double most = -std::numeric_limits<double>::infinity();
+};
+
+/// The least and the largest `term(i)` over [0, count).
+template <class Term>
+Range range_of(int count, const Term& term)
+{
+    return ordered_fold(
+        count, Range(),
+        [&term](Range& range, int i) {
+            const double here = term(i);
+            range = {std::min(range.least, here), std::max(range.most, here)};
+        },
+        [](Range& range, const Range& part) {
+            range = {std::min(range.least, part.least), std::max(range.most, part.most)};
+        });
 }
 
 } // namespace vcg_ext

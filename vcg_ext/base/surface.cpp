@@ -31,6 +31,13 @@ Eigen::AlignedBox3d bounding_box(const Points& points)
         [](Box& box, const Box& part) { box.extend(part); });
 }
 
+Points copy_of(const Points& points)
+{
+    Points result(points.size());
+    for_each_index(static_cast<int>(points.size()), [&](int v) { result[v] = points[v]; });
+    return result;
+}
+
 Points rounded_to_float(const Points& points)
 {
     Points result(points.size());

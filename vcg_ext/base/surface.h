@@ -49,6 +49,9 @@ struct VertexFaces {
 /// The box around points; empty where there are none.
 [[nodiscard]] Eigen::AlignedBox3d bounding_box(const Points& points);
 
+/// The same once more; on all cores, since what is new of the memory takes longer than the copying.
+[[nodiscard]] Points copy_of(const Points& points);
+
 /// Positions as a file of floats holds them.
 [[nodiscard]] Points rounded_to_float(const Points& points);
 
