@@ -2,10 +2,13 @@
 #include "support/load.h"
 #include "support/topology.h"
 #include "vcg_ext/base/mesh.h"
+#include "vcg_ext/base/parallel.h"
 #include "vcg_ext/base/surface.h"
 #include "vcg_ext/base/weld.h"
 
+#include <cmath>
 #include <gtest/gtest.h>
+#include <map>
 #include <set>
 
 using namespace vcg_ext;
@@ -39,6 +42,41 @@ TEST(Weld, LeavesOutWhatNoFaceNeeds)
     EXPECT_EQ(welded.site_of_vertex, (std::vector<int>{0, 1, 0, 2, -1}));
     EXPECT_EQ(welded.surface.points.size(), 3u);
     EXPECT_EQ(welded.surface.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 1, 2}}));
+}
+
+TEST(RoundedToFloat, IsAFloatEverywhere)
+{
+    for (const int count : {1, 2, 3, 4, 5, 7, 4097, 8190}) { // compilers treat the last few by themselves
+        Points points;
+        for (int i = 0; i < count; ++i)
+            points.emplace_back(std::sin(i), std::cos(i) / 3, 0.1 * i);
+        const Points rounded = rounded_to_float(points);
+        for (int i = 0; i < count; ++i)
+            for (int axis = 0; axis < 3; ++axis) {
+                const volatile float nearest = static_cast<float>(points[i][axis]);
+                EXPECT_EQ(rounded[i][axis], static_cast<double>(nearest)) << i << " of " << count;
+            }
+    }
+}
+
+TEST(FirstEquals, IsTheFirstByAMapWithAnyNumberOfThreads)
+{
+    Points points;
+    for (int i = 0; i < 50000; ++i) {
+        const int place = i * 7919 % 20011; // each some two or three times; half of the zeros negative
+        points.emplace_back(place % 29 * 0.1, place % 2 ? 0.0 : -0.0, place / 29 / 3.0);
+    }
+    std::map<std::array<double, 3>, int> places;
+    std::vector<int> expected;
+    for (const Point& p : points)
+        expected.push_back(places.insert({{p[0], p[1] + 0.0, p[2]}, static_cast<int>(expected.size())}).first->second);
+    for (const int threads : {1, 4}) {
+        set_threads(threads);
+        EXPECT_EQ(first_equals(points), expected);
+    }
+    set_threads(0);
+    EXPECT_FALSE(is_identity(expected));
+    EXPECT_TRUE(first_equals({}).empty());
 }
 
 TEST(Unweld, MovesVerticesAtOnePositionTogether)

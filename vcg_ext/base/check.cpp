@@ -28,13 +28,26 @@ void check_surface(const Surface& surface, const char* which)
     if (surface.triangles.empty())
         throw Error(mesh + " has no faces, so there is no surface. "
                            "Open a mesh with faces, or reconstruct the surface.");
-    const auto outside = [vertices](int v) { return v < 0 || v >= vertices; };
-    if (ordered_sum(static_cast<int>(surface.triangles.size()), 0, [&](int f) {
-            const Triangle& t = surface.triangles[f];
-            return std::any_of(t.begin(), t.end(), outside);
-        }) > 0)
+    struct Seen {
+        bool outside = false;
+        Eigen::AlignedBox3d box;
+    };
+    const auto [outside, box] = ordered_fold(
+        static_cast<int>(surface.triangles.size()), Seen(),
+        [&](Seen& seen, int f) {
+            for (const int v : surface.triangles[f]) {
+                if (v < 0 || v >= vertices)
+                    seen.outside = true;
+                else
+                    seen.box.extend(surface.points[v]);
+            }
+        },
+        [](Seen& seen, const Seen& part) {
+            seen.outside = seen.outside || part.outside;
+            seen.box.extend(part.box);
+        });
+    if (outside)
         throw Error("A face of the " + std::string(which) + " refers to a vertex that does not exist.");
-    const Eigen::AlignedBox3d box = bounding_box(surface);
     if (box.min().minCoeff() < -largest || box.max().maxCoeff() > largest)
         throw Error(mesh + " has coordinates of more than 1e35. Scale it down first.");
     const double size = box.sizes().maxCoeff();

@@ -13,6 +13,14 @@ struct Welded {
     std::vector<int> site_of_vertex; ///< per vertex of the original: its site, or -1 where no such face refers to it
 };
 
+/// Per point the number of the first that equals it (0 and -0 do): its own where all differ.
+///
+/// They are dealt to buckets by their hashes, each looked through by itself: all cores have work, and tables fit caches.
+[[nodiscard]] std::vector<int> first_equals(const Points& points);
+
+/// Whether each number is that of its place.
+[[nodiscard]] bool is_identity(const std::vector<int>& numbers);
+
 /// Welds by exact position (0 and -0 are one). Sites keep the order of their first vertices.
 [[nodiscard]] Welded weld(const Surface& surface);
 
