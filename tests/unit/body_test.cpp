@@ -44,6 +44,44 @@ Surface with_loose(Surface surface, int count)
     return surface;
 }
 
+void expect_same(const Body& a, const Body& b)
+{
+    EXPECT_EQ(a.surface.points, b.surface.points);
+    EXPECT_EQ(a.surface.triangles, b.surface.triangles);
+    EXPECT_EQ(a.site_of_vertex, b.site_of_vertex);
+    EXPECT_EQ(a.pieces, b.pieces);
+    EXPECT_EQ(a.closed, b.closed);
+}
+
+TEST(BodyMoved, IsThatOfTheMovedSurfaceWhereFacesTellAll)
+{
+    const Surface whole = load("fandisk.off");
+    for (const Surface& surface : {whole, soup(whole)}) {
+        Surface moved = surface;
+        for (Point& p : moved.points)
+            p += 1e-3 * Point(std::sin(9 * p.y()), std::sin(9 * p.z()), std::sin(9 * p.x()));
+        const Body before = body_of(surface);
+        const std::optional<Body> body = body_moved(before, moved);
+        ASSERT_TRUE(body);
+        expect_same(*body, body_of(moved));
+        moved.points[0] = moved.points[moved.triangles.back()[0]]; // where another is
+        EXPECT_FALSE(body_moved(before, moved));
+    }
+    Surface seam = soup(whole);
+    const Body before = body_of(seam);
+    seam.points[0] *= 1.1; // and away from its own
+    EXPECT_FALSE(body_moved(before, seam));
+}
+
+TEST(BodyMoved, IsEmptyForOpenSurfacesAndSeveralPieces)
+{
+    Surface open = load("fandisk.off");
+    open.triangles.pop_back();
+    EXPECT_FALSE(body_moved(body_of(open), open));
+    const Surface two = with_loose(load("fandisk.off"), 1);
+    EXPECT_FALSE(body_moved(body_of(two), two));
+}
+
 TEST(Body, SeamsAreClosedAndStayAsWideAsTheyWere)
 {
     const Surface whole = load("fandisk.off");

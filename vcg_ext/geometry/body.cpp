@@ -80,7 +80,8 @@ void join_sites(Body& body, const std::vector<int>& head)
 void mend(Body& body)
 {
     std::vector<EdgeUse> edges = boundary(body.surface);
-    if (edges.empty())
+    body.closed = edges.empty();
+    if (body.closed)
         return;
     const std::vector<int> head = sewn_to(body.surface.points, edges, seam * std::sqrt(surface_area(body.surface)));
     for (std::size_t v = 0; v < head.size(); ++v)
@@ -133,6 +134,22 @@ Body body_of(const Surface& surface, const char* which)
     return body;
 }
 
+std::optional<Body> body_moved(const Body& before, const Surface& moved)
+{
+    check_surface(moved);
+    const std::vector<int>& site_of = before.site_of_vertex;
+    const int vertices = static_cast<int>(site_of.size());
+    if (!before.closed || before.pieces > 1 || *std::min_element(site_of.begin(), site_of.end()) < 0)
+        return {};
+    Points sites(before.surface.points.size());
+    for (int v = vertices - 1; v >= 0; --v) // the first of each is the last that stays
+        sites[site_of[v]] = moved.points[v];
+    if (ordered_sum(vertices, 0, [&](int v) { return moved.points[v] != sites[site_of[v]]; }) > 0 ||
+        !is_identity(first_equals(sites)))
+        return {};
+    return Body{{std::move(sites), before.surface.triangles}, site_of, before.pieces, 0, true};
+}
+
 std::string about_loose_pieces(const Body& body)
 {
     if (body.loose_pieces == 0)
@@ -143,9 +160,10 @@ std::string about_loose_pieces(const Body& body)
 
 Points with_sites_at(const Body& body, const Points& original, const Points& sites)
 {
-    Points points = original;
+    Points points(original.size());
     for_each_index(static_cast<int>(points.size()), [&](int v) {
         const int site = body.site_of_vertex[v];
+        points[v] = original[v];
         if (site < 0)
             return;
         const Point& before = body.surface.points[site];

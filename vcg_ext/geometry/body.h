@@ -2,6 +2,7 @@
 #pragma once
 #include "../base/surface.h"
 
+#include <optional>
 #include <string>
 
 namespace vcg_ext {
@@ -19,10 +20,16 @@ struct Body {
     std::vector<int> site_of_vertex; ///< per vertex of the surface as it came; -1: it is no part of the body
     int pieces = 0;                  ///< connected parts of the whole surface
     int loose_pieces = 0;            ///< of them left out
+    bool closed = false;             ///< whether the faces bounded a solid before any mending
 };
 
 /// \param which how an error names it  \throw Error as check_surface()
 [[nodiscard]] Body body_of(const Surface& surface, const char* which = "mesh");
+
+/// body_of() of a surface with the faces that `before` was made of and vertices elsewhere; numbered as `before` is. Empty
+/// where faces alone do not tell that the two bodies differ by positions only.
+/// \throw Error as check_surface()
+[[nodiscard]] std::optional<Body> body_moved(const Body& before, const Surface& moved);
 
 /// "30 of the 31 separate pieces of the mesh are below 1 % of its area, and carry nothing."; empty where none are.
 [[nodiscard]] std::string about_loose_pieces(const Body& body);

@@ -8,6 +8,9 @@
 #include "spectral.h"
 #include "waves.h"
 
+#include <optional>
+#include <utility>
+
 namespace vcg_ext {
 
 namespace {
@@ -176,6 +179,12 @@ Body body_for(const MethodRow& method, const Surface& surface)
     if (method.walks)
         number_by_rings(body);
     return body;
+}
+
+Body body_for(const MethodRow& method, const Surface& moved, const Body& before)
+{
+    std::optional<Body> body = body_moved(before, moved);
+    return body ? std::move(*body) : body_for(method, moved);
 }
 
 MarkFrame find_copy(const MethodRow& method, const Copy& copy, const Plan& plan)

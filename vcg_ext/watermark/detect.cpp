@@ -346,10 +346,17 @@ DetectReport detect_whole(const Surface& surface, const Key& key, const DetectOp
     options.carriers.check();
     Stopwatch watch;
     report(progress, 0, "Finding carriers");
-    const Body body = body_for(row_of(options.carriers.method), surface);
+    DetectReport result =
+        detect_whole(body_for(row_of(options.carriers.method), surface), key, options, share, progress);
+    result.seconds["detection"] = watch.lap();
+    return result;
+}
+
+DetectReport detect_whole(const Body& body, const Key& key, const DetectOptions& options, double share,
+                          const Progress& progress)
+{
     DetectReport result = detect_body(body, key, options, share, progress);
     tell_pieces(body, result);
-    result.seconds["detection"] = watch.lap();
     return result;
 }
 

@@ -33,4 +33,8 @@ using LayerReader = std::function<Readings(const MethodRow& method, const Plan& 
 [[nodiscard]] DetectReport detect_whole(const Surface& surface, const Key& key, const DetectOptions& options,
                                         double share = 1, const Progress& progress = {});
 
+/// The same of a body, see body_for().
+[[nodiscard]] DetectReport detect_whole(const Body& body, const Key& key, const DetectOptions& options,
+                                        double share = 1, const Progress& progress = {});
+
 } // namespace vcg_ext

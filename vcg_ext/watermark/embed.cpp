@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "embed.h"
 
+#include "../base/parallel.h"
 #include "../base/stopwatch.h"
 #include "../base/text.h"
 #include "../geometry/body.h"
@@ -69,7 +70,7 @@ void take_up(const Marking& marking, EmbedReport& result)
 
 /// Reads back what was embedded, layer by layer: the part of the carriers that hold their bits. Blind, unless the
 /// body's ends can only be told apart by the message.
-double self_check(const Surface& marked, const Key& key, const EmbedOptions& options, EmbedReport& result,
+double self_check(const Body& marked, const Key& key, const EmbedOptions& options, EmbedReport& result,
                   const Progress& progress)
 {
     const auto quietly = [&progress](int, const char*) { return !progress || progress(85, "Checking blind"); };
@@ -164,6 +165,8 @@ void warn_of_shape(const Body& body, EmbedReport& result)
     if (const int parts = body.pieces - body.loose_pieces; parts > 1)
         result.warnings.push_back("The mesh is " + std::to_string(parts) +
                                   " separate pieces, marked as one body: taking some of them away loses the mark.");
+    if (body.closed)
+        return;
     const SolidTopology topology = solid_topology(body.surface);
     if (topology.apexes == 0)
         return;
@@ -207,7 +210,8 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     const EmbedOptions options = completed(wanted, surface.points.size());
     report(progress, 0, "Finding carriers");
     Stopwatch watch;
-    const Body body = body_for(row_of(options.carriers.method), surface);
+    const MethodRow& method = row_of(options.carriers.method);
+    const Body body = body_for(method, surface);
     EmbedReport result;
     result.method = options.carriers.method;
     result.statistic = options.carriers.statistic;
@@ -223,9 +227,10 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
         Points points = with_sites_at(body, surface.points, placed);
         if (floats) {
             const Points rounded = rounded_to_float(points);
-            for (std::size_t v = 0; v < points.size(); ++v)
+            for_each_index(static_cast<int>(points.size()), [&](int v) {
                 if (body.site_of_vertex[v] >= 0)
                     points[v] = rounded[v];
+            });
         }
         return points;
     };
@@ -234,7 +239,7 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
         result.seconds["placement"] += watch.lap();
         marked.points = as_stored(placed);
         const std::size_t warnings = result.warnings.size();
-        result.detection_ratio = self_check(marked, key, options, result, progress);
+        result.detection_ratio = self_check(body_for(method, marked, body), key, options, result, progress);
         if (result.detection_ratio < 1)
             result.warnings.resize(warnings);
         result.seconds["check"] += watch.lap();
@@ -250,7 +255,7 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     result.mrms = local_mrms(cover.points, stored, cover.triangles, cover.around);
     result.diagonal = bounding_diagonal(body.surface);
     result.mrms_relative = result.mrms / result.diagonal;
-    if (row_of(result.method).is_smooth)
+    if (method.is_smooth)
         result.plane_bend = largest_bend(cover.normals, stored, cover.triangles, cover.around);
     result.recipe = recipe_of(options);
     warn(options, result);
