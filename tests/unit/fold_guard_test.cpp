@@ -5,6 +5,7 @@
 #include "vcg_ext/key/stream.h"
 #include "vcg_ext/placement/fold_guard.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 using namespace vcg_ext;
@@ -42,6 +43,26 @@ TEST(GuardFolds, LeavesNoFaceFolded)
         untouched += step[v] == 0;
     }
     EXPECT_GT(untouched, 0);
+}
+
+TEST(FoldedFaces, AreThoseOfAllWhereOnlySomeVerticesMoved)
+{
+    const Surface surface = load("fandisk.off");
+    const Cover cover(surface);
+    const Points all = shaken(surface, 0.01 * bounding_diagonal(surface));
+    Points points = surface.points;
+    std::vector<int> known;
+    for (const int step : {20, 30}) { // those that are moved the second time, and those that go back
+        std::vector<int> moved;
+        for (int v = 0; v < static_cast<int>(points.size()); v += step) {
+            points[v] = v % 60 == 0 && step == 30 ? surface.points[v] : all[v];
+            moved.push_back(v);
+        }
+        known = folded_faces(cover, points, known, moved);
+        std::sort(known.begin(), known.end());
+        EXPECT_EQ(known, folded_faces(cover, points));
+        EXPECT_FALSE(known.empty());
+    }
 }
 
 TEST(GuardFolds, LeavesGoodMovesAlone)

@@ -3,6 +3,7 @@
 
 #include "vcg_ext/carrier/statistic.h"
 
+#include <cmath>
 #include <gtest/gtest.h>
 
 using namespace vcg_ext;
@@ -47,6 +48,23 @@ TEST(ReadPart, WhereNothingOfTheOriginalIsLeftIsAnErasure)
     EXPECT_FALSE(read.erased[0]);
     EXPECT_TRUE(read.erased[1]);
     EXPECT_EQ(read.soft[1], 0);
+}
+
+TEST(TargetScalars, AreTheSameStepByStepAndAtOnce)
+{
+    const Carriers cover = {3, 0, 1, {0, 0, 1, 2, 1, -1, 2, 0}, {0.3, 0.6, 0.5, 0.4, 0.1, 0, 0.7, 0.2}};
+    const std::vector<double> mobility(8, 1);
+    const std::vector<char> bits = {1, 0, 1};
+    TargetScalars steps(cover, mobility, bits, Statistic::Mean, 1e-6);
+    (void)steps.at({0.6, 0.45, 0.5});
+    for (const std::vector<double>& targets : {std::vector<double>{0.6, 0.45, 0.6}, {0.7, 0.2, 0.6}}) {
+        const std::vector<double> once = TargetScalars(cover, mobility, bits, Statistic::Mean, 1e-6).at(targets);
+        const std::vector<double>& step = steps.at(targets);
+        for (std::size_t v = 0; v < once.size(); ++v)
+            EXPECT_TRUE(once[v] == step[v] || (std::isnan(once[v]) && std::isnan(step[v]))) << v;
+        EXPECT_NEAR((once[0] + once[1] + once[7]) / 3, targets[0], 1e-9);
+        EXPECT_TRUE(std::isnan(once[5]));
+    }
 }
 
 } // namespace

@@ -1,53 +1,57 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "carriers.h"
 
-#include "../base/parallel.h"
-
 namespace vcg_ext {
 
 Carriers cut_range(const std::vector<double>& scalar, double minimum, double maximum, double trim, int count)
 {
-    Carriers carriers;
-    carriers.count = count;
-    carriers.low = minimum + trim * (maximum - minimum);
-    carriers.width = (1 - 2 * trim) * (maximum - minimum) / count;
-    carriers.label.assign(scalar.size(), -1);
-    carriers.value.assign(scalar.size(), 0);
-    for_each_index(static_cast<int>(scalar.size()), [&](int v) {
-        const double place = (scalar[v] - carriers.low) / carriers.width;
-        if (!(scalar[v] >= 0 && place >= 0 && place < count))
-            return;
-        carriers.label[v] = static_cast<int>(place);
-        carriers.value[v] = place - carriers.label[v];
-    });
-    return carriers;
+    return cut_range_of(
+        static_cast<int>(scalar.size()), [&scalar](int v) { return scalar[v]; }, minimum, maximum, trim, count);
 }
 
 std::vector<int> samples(const Carriers& carriers)
 {
-    std::vector<int> count(carriers.count, 0);
-    for (const int label : carriers.label)
-        if (label >= 0)
-            ++count[label];
-    return count;
+    using Counts = std::vector<int>;
+    return ordered_fold(
+        static_cast<int>(carriers.label.size()), Counts(carriers.count, 0),
+        [&carriers](Counts& counts, int v) {
+            if (carriers.label[v] >= 0)
+                ++counts[carriers.label[v]];
+        },
+        [](Counts& counts, const Counts& part) {
+            for (std::size_t k = 0; k < counts.size(); ++k)
+                counts[k] += part[k];
+        });
 }
 
 std::vector<double> statistics(const Carriers& carriers, Statistic statistic)
 {
-    std::vector<double> sum(carriers.count, 0);
-    std::vector<int> count(carriers.count, 0);
-    for (std::size_t v = 0; v < carriers.label.size(); ++v) {
-        const int label = carriers.label[v];
-        if (label < 0)
-            continue;
-        const double x = carriers.value[v];
-        const double z = 2 * x - 1;
-        sum[label] += statistic == Statistic::Mean ? x : z * z;
-        ++count[label];
-    }
-    for (int k = 0; k < carriers.count; ++k)
-        sum[k] = count[k] > 0 ? sum[k] / count[k] : threshold(statistic);
-    return sum;
+    struct Tally {
+        double sum = 0;
+        int count = 0;
+    };
+    using Tallies = std::vector<Tally>;
+    const Tallies all = ordered_fold(
+        static_cast<int>(carriers.label.size()), Tallies(carriers.count),
+        [&carriers, statistic](Tallies& tallies, int v) {
+            if (carriers.label[v] < 0)
+                return;
+            const double x = carriers.value[v];
+            const double z = 2 * x - 1;
+            Tally& tally = tallies[carriers.label[v]];
+            tally.sum += statistic == Statistic::Mean ? x : z * z;
+            ++tally.count;
+        },
+        [](Tallies& tallies, const Tallies& part) {
+            for (std::size_t k = 0; k < tallies.size(); ++k) {
+                tallies[k].sum += part[k].sum;
+                tallies[k].count += part[k].count;
+            }
+        });
+    std::vector<double> result;
+    for (const Tally& tally : all)
+        result.push_back(tally.count > 0 ? tally.sum / tally.count : threshold(statistic));
+    return result;
 }
 
 } // namespace vcg_ext

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "../base/parallel.h"
 #include "statistic.h"
 
 #include <vector>
@@ -21,7 +22,29 @@ struct Carriers {
 
 /// Cuts the range between `minimum` and `maximum` of a scalar: `trim` of it off at both ends, `count` equal widths
 /// between ((5.2)-(5.6), (4.6) with its offset put right).
-/// \param scalar one per vertex; negative or infinite: no carrier
+/// \param scalar `scalar(v)`, vertices from 0 on; negative or infinite: no carrier
+template <class Scalar>
+[[nodiscard]] Carriers cut_range_of(int vertices, const Scalar& scalar, double minimum, double maximum, double trim,
+                                    int count)
+{
+    Carriers carriers;
+    carriers.count = count;
+    carriers.low = minimum + trim * (maximum - minimum);
+    carriers.width = (1 - 2 * trim) * (maximum - minimum) / count;
+    carriers.label.assign(vertices, -1);
+    carriers.value.assign(vertices, 0);
+    for_each_index(vertices, [&](int v) {
+        const double here = scalar(v);
+        const double place = (here - carriers.low) / carriers.width;
+        if (!(here >= 0 && place >= 0 && place < count))
+            return;
+        carriers.label[v] = static_cast<int>(place);
+        carriers.value[v] = place - carriers.label[v];
+    });
+    return carriers;
+}
+
+/// The same of scalars that are there, one per vertex.
 [[nodiscard]] Carriers cut_range(const std::vector<double>& scalar, double minimum, double maximum, double trim,
                                  int count);
 

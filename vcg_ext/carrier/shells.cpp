@@ -5,7 +5,6 @@
 #include "../base/parallel.h"
 #include "../geometry/centre.h"
 
-#include <algorithm>
 
 namespace vcg_ext {
 
@@ -21,10 +20,10 @@ ShellFrame shell_frame(const Points& points, const SolidTopology& topology)
     ShellFrame frame;
     frame.centre = topology.apexes == 0 ? area_centre(points, topology.triangles)
                                         : area_centre(solid_points(topology, points), topology.triangles);
-    const std::vector<double> all = norms(points, frame.centre);
-    const auto [low, high] = std::minmax_element(all.begin(), all.end());
-    frame.minimum = *low;
-    frame.maximum = *high;
+    const auto norm = [&](int v) { return (points[v] - frame.centre).norm(); };
+    const Range range = range_of(static_cast<int>(points.size()), norm);
+    frame.minimum = range.least;
+    frame.maximum = range.most;
     if (!(frame.maximum - frame.minimum > 1e-9 * frame.maximum))
         throw Error("All vertices are equally far from the mesh's centre, so their distances cannot carry a message. "
                     "Use another method, or another mesh.");
@@ -33,7 +32,8 @@ ShellFrame shell_frame(const Points& points, const SolidTopology& topology)
 
 Carriers shells(const Points& points, const ShellFrame& frame, double trim, int count)
 {
-    return cut_range(norms(points, frame.centre), frame.minimum, frame.maximum, trim, count);
+    const auto norm = [&](int v) { return (points[v] - frame.centre).norm(); };
+    return cut_range_of(static_cast<int>(points.size()), norm, frame.minimum, frame.maximum, trim, count);
 }
 
 } // namespace vcg_ext

@@ -33,44 +33,44 @@ public:
             place_by_sweeps(changed);
             proposal.solver = summary();
         } else {
-            place_each(changed, best_, [&](int v) {
+            place_each(changed, [&](int v) {
                 return how_ == Radial::Selective ? place_selective(cover_, v, centre_, targets_[v])
                                                  : radial_point(cover_.points[v], centre_, targets_[v]);
             });
         }
-        proposal.points = best_;
+        folded_ = folded_faces(cover_, best_, folded_, changed);
+        proposal.points = copy_of(best_);
         proposal.guarded_vertices = guard(proposal.points);
         return proposal;
     }
 
 private:
-    /// The vertices that have a target and are not where it asks them to be.
+    /// The vertices that are not where the targets ask them to be.
     std::vector<int> take_up(const Point& centre, const std::vector<double>& targets)
     {
         const bool keep = centre == centre_ && (how_ != Radial::Sphere || options_.sweeps == 1);
-        std::vector<int> changed;
-        for (std::size_t v = 0; v < targets.size(); ++v) {
-            if (std::isnan(targets[v]))
-                best_[v] = cover_.points[v];
-            else if (!keep || targets[v] != targets_[v])
-                changed.push_back(static_cast<int>(v));
-        }
+        std::vector<int> changed = indices_where(static_cast<int>(targets.size()), [&](int v) {
+            return std::isnan(targets[v]) ? !std::isnan(targets_[v]) : !keep || targets[v] != targets_[v];
+        });
         centre_ = centre;
         targets_ = targets;
         return changed;
     }
 
     template <class Place>
-    static void place_each(const std::vector<int>& vertices, Points& points, const Place& place)
+    void place_each(const std::vector<int>& vertices, const Place& place)
     {
-        for_each_index(static_cast<int>(vertices.size()), [&](int i) { points[vertices[i]] = place(vertices[i]); });
+        for_each_index(static_cast<int>(vertices.size()), [&](int i) {
+            const int v = vertices[i];
+            best_[v] = std::isnan(targets_[v]) ? cover_.points[v] : place(v);
+        });
     }
 
     void place_by_sweeps(const std::vector<int>& vertices)
     {
         for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
             const Points neighbours = sweep == 0 ? Points() : best_;
-            place_each(vertices, best_, [&](int v) {
+            place_each(vertices, [&](int v) {
                 const Eigen::Matrix3d energy = sweep == 0 ? sphere_energy(cover_, v, options_.weights)
                                                           : sphere_energy(cover_, neighbours, v, options_.weights);
                 const SphereSolution solution = place_on_sphere(cover_.points[v], centre_, targets_[v], energy);
@@ -83,18 +83,28 @@ private:
 
     [[nodiscard]] SolverSummary summary() const
     {
-        SolverSummary result;
-        double total = 0;
-        int moved = 0;
-        for (std::size_t v = 0; v < targets_.size(); ++v)
-            if (!std::isnan(targets_[v])) {
-                ++moved;
-                total += iterations_[v];
-                result.max_iterations = std::max(result.max_iterations, iterations_[v]);
-                result.not_converged += !converged_[v];
-            }
-        result.mean_iterations = moved > 0 ? total / moved : 0;
-        return result;
+        struct Counts {
+            long iterations = 0;
+            int moved = 0, most = 0, not_converged = 0;
+        };
+        const Counts all = ordered_fold(
+            static_cast<int>(targets_.size()), Counts(),
+            [this](Counts& counts, int v) {
+                if (std::isnan(targets_[v]))
+                    return;
+                ++counts.moved;
+                counts.iterations += iterations_[v];
+                counts.most = std::max(counts.most, iterations_[v]);
+                counts.not_converged += !converged_[v];
+            },
+            [](Counts& counts, const Counts& part) {
+                counts.moved += part.moved;
+                counts.iterations += part.iterations;
+                counts.most = std::max(counts.most, part.most);
+                counts.not_converged += part.not_converged;
+            });
+        const double mean = all.moved > 0 ? static_cast<double>(all.iterations) / all.moved : 0;
+        return {mean, all.most, all.not_converged};
     }
 
     /// Steps back from folds: on the target's own sphere towards Cho's point first, then from there to the old place.
@@ -111,7 +121,7 @@ private:
                 return radial_point(best_[v] + (cho - best_[v]) * part, centre_, targets_[v]);
             return old + (cho - old) * std::exp2(on_sphere - step);
         };
-        const std::vector<int> step = guard_folds(cover_, points, steps, retreat);
+        const std::vector<int> step = guard_folds(cover_, points, folded_, steps, retreat);
         return static_cast<int>(std::count_if(step.begin(), step.end(), [](int s) { return s > 0; }));
     }
 
@@ -120,7 +130,8 @@ private:
     SphereOptions options_;
     Point centre_ = Point::Zero();
     std::vector<double> targets_;
-    Points best_; ///< before the guard
+    Points best_;             ///< before the guard
+    std::vector<int> folded_; ///< faces, there
     std::vector<int> iterations_;
     std::vector<char> converged_;
 };
@@ -158,12 +169,12 @@ public:
     /// The vertices that attain the least and the largest norm stay, or the range would move with them.
     [[nodiscard]] std::vector<double> mobility() const
     {
-        const auto range = std::minmax_element(norms_.begin(), norms_.end());
-        const double least = *range.first;
-        const double most = *range.second;
+        const int vertices = static_cast<int>(norms_.size());
+        const Range range = range_of(vertices, [this](int v) { return norms_[v]; });
         std::vector<double> result(norms_.size());
-        for_each_index(static_cast<int>(result.size()),
-                       [&](int v) { result[v] = norms_[v] == least || norms_[v] == most || cover_.holds(v) ? 0 : 1; });
+        for_each_index(vertices, [&](int v) {
+            result[v] = norms_[v] == range.least || norms_[v] == range.most || cover_.holds(v) ? 0 : 1;
+        });
         return result;
     }
 

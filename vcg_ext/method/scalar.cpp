@@ -5,20 +5,12 @@
 #include "../placement/histogram.h"
 
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace vcg_ext {
 
 namespace {
-
-/// Per carrier the vertices that it holds, in ascending order.
-std::vector<std::vector<int>> members(const Carriers& carriers)
-{
-    std::vector<std::vector<int>> result(carriers.count);
-    for (std::size_t v = 0; v < carriers.label.size(); ++v)
-        if (carriers.label[v] >= 0)
-            result[carriers.label[v]].push_back(static_cast<int>(v));
-    return result;
-}
 
 /// Part of a carrier that rounding to float can move a value by, with room to spare.
 double float_guard(const Points& points, const Carriers& carriers)
@@ -76,28 +68,45 @@ Readings read_part(Carriers part, const Carriers& original, const std::vector<ch
     return readings_of(std::move(part), read, count, plan);
 }
 
-std::vector<double> target_scalars(const Carriers& cover, const std::vector<double>& mobility,
-                                   const std::vector<double>& targets, const std::vector<char>& bits,
-                                   Statistic statistic, double guard)
+TargetScalars::TargetScalars(const Carriers& cover, std::vector<double> mobility, const std::vector<char>& bits,
+                             Statistic statistic, double guard)
+    : cover_(cover), mobility_(std::move(mobility)), bits_(bits), statistic_(statistic), guard_(guard),
+      now_(statistics(cover, statistic)), first_(cover.count + 1, 0), asked_(cover.count, NAN),
+      scalars_(cover.label.size(), NAN)
 {
-    const std::vector<std::vector<int>> vertices = members(cover);
-    const std::vector<double> now = statistics(cover, statistic);
-    std::vector<double> scalars(cover.label.size(), std::numeric_limits<double>::quiet_NaN());
-    for_chunks(cover.count, 1, [&](int k, int) {
-        if ((bits[k] ? 1 : -1) * (now[k] - targets[k]) >= 0)
+    const std::vector<int> held = samples(cover);
+    std::partial_sum(held.begin(), held.end(), first_.begin() + 1);
+    vertices_.resize(first_.back());
+    std::vector<int> next = first_;
+    for (std::size_t v = 0; v < cover.label.size(); ++v)
+        if (cover.label[v] >= 0)
+            vertices_[next[cover.label[v]]++] = static_cast<int>(v);
+}
+
+const std::vector<double>& TargetScalars::at(const std::vector<double>& targets)
+{
+    for_chunks(cover_.count, 1, [&](int k, int) {
+        if (targets[k] == asked_[k])
             return;
-        std::vector<double> values;
-        std::vector<double> mobilities;
-        for (const int v : vertices[k]) {
-            values.push_back(cover.value[v]);
-            mobilities.push_back(mobility[v]);
-        }
-        const std::vector<double> mapped = map_histogram(values, statistic, targets[k], guard, mobilities);
-        for (std::size_t i = 0; i < mapped.size(); ++i)
-            if (mobilities[i] > 0)
-                scalars[vertices[k][i]] = cover.scalar(k, mapped[i]);
+        asked_[k] = targets[k];
+        if ((bits_[k] ? 1 : -1) * (now_[k] - targets[k]) < 0)
+            map(k, targets[k]);
     });
-    return scalars;
+    return scalars_;
+}
+
+void TargetScalars::map(int k, double target)
+{
+    std::vector<double> values;
+    std::vector<double> mobilities;
+    for (int i = first_[k]; i < first_[k + 1]; ++i) {
+        values.push_back(cover_.value[vertices_[i]]);
+        mobilities.push_back(mobility_[vertices_[i]]);
+    }
+    const std::vector<double> mapped = map_histogram(values, statistic_, target, guard_, mobilities);
+    for (std::size_t i = 0; i < mapped.size(); ++i)
+        if (mobilities[i] > 0)
+            scalars_[vertices_[first_[k] + i]] = cover_.scalar(k, mapped[i]);
 }
 
 std::vector<char> bits_by_carrier(const Bits& coded, const Plan& plan)

@@ -21,12 +21,30 @@ namespace vcg_ext {
 
 /// The scalar that each vertex is to have, NaN where it stays: every carrier's histogram mapped to its target, but for
 /// those that are beyond it already.
-///
-/// \param mobility per vertex, see map_histogram()   \param targets per carrier   \param bits per carrier
-/// \param guard    part of a carrier's width that values keep from its ends
-[[nodiscard]] std::vector<double> target_scalars(const Carriers& cover, const std::vector<double>& mobility,
-                                                 const std::vector<double>& targets, const std::vector<char>& bits,
-                                                 Statistic statistic, double guard);
+class TargetScalars {
+public:
+    /// \param cover, bits must outlive this; bits are per carrier   \param mobility per vertex, see map_histogram()
+    /// \param guard part of a carrier's width that values keep from its ends
+    TargetScalars(const Carriers& cover, std::vector<double> mobility, const std::vector<char>& bits,
+                  Statistic statistic, double guard);
+
+    /// \param targets per carrier, each at least as far out as the last time; who has the same one is not mapped again
+    [[nodiscard]] const std::vector<double>& at(const std::vector<double>& targets);
+
+private:
+    void map(int k, double target);
+
+    const Carriers& cover_;
+    std::vector<double> mobility_;
+    const std::vector<char>& bits_;
+    Statistic statistic_;
+    double guard_;
+    std::vector<double> now_;   ///< per carrier its statistic on the cover
+    std::vector<int> first_;    ///< per carrier where its vertices begin in
+    std::vector<int> vertices_; ///< all that are in one, carrier by carrier, ascending
+    std::vector<double> asked_; ///< per carrier the target that its scalars are for
+    std::vector<double> scalars_;
+};
 
 /// The bits of a message by the carrier that the plan gives them.
 [[nodiscard]] std::vector<char> bits_by_carrier(const Bits& coded, const Plan& plan);
@@ -105,10 +123,10 @@ Marking embed_scalar(Scalar& scalar, const Cover& cover, const Plan& plan, const
         return marking;
     }
 
-    std::vector<double> mobility = scalar.mobility();
-    const auto propose = [&](int) {
-        return scalar.place(target_scalars(carriers, mobility, targets, bits, statistic, guard));
-    };
+    std::optional<TargetScalars> aims;
+    const auto aim_at_targets = [&] { aims.emplace(carriers, scalar.mobility(), bits, statistic, guard); };
+    aim_at_targets();
+    const auto propose = [&](int) { return scalar.place(aims->at(targets)); };
     const auto read = [&](const Points& stored, int round) {
         const auto frame = scalar.find(stored);
         std::vector<double> margins = margins_of(scalar.read(stored, frame));
@@ -116,7 +134,7 @@ Marking embed_scalar(Scalar& scalar, const Cover& cover, const Plan& plan, const
             if (*std::min_element(margins.begin(), margins.end()) < 0) {
                 scalar.aim(scalar.on_cover(stored, frame));
                 carriers = scalar.cut(count);
-                mobility = scalar.mobility();
+                aim_at_targets();
             }
             return margins;
         }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "../base/parallel.h"
 #include "../base/surface.h"
-#include "../geometry/normals.h"
-#include "../geometry/size.h"
 
 #include <algorithm>
 #include <utility>
@@ -14,9 +13,14 @@ struct Cover {
     /// \param unmarked must outlive the cover
     explicit Cover(const Surface& unmarked, std::vector<char> fixed = {})
         : surface(unmarked), points(surface.points), triangles(surface.triangles), held(std::move(fixed)),
-          around(vertex_faces(static_cast<int>(points.size()), triangles)), normals(face_normals(points, triangles)),
-          areas(doubled_areas(points, triangles))
+          around(vertex_faces(static_cast<int>(points.size()), triangles)), normals(triangles.size()),
+          areas(triangles.size())
     {
+        for_each_index(static_cast<int>(triangles.size()), [this](int f) {
+            normals[f] = scaled_normal(points, triangles[f]);
+            areas[f] = normals[f].norm();
+            normals[f] = areas[f] > 0 ? Point(normals[f] / areas[f]) : Point(Point::Zero());
+        });
     }
 
     const Surface& surface;

@@ -3,7 +3,7 @@
 
 #include "../base/parallel.h"
 
-#include <numeric>
+#include <utility>
 
 namespace vcg_ext {
 
@@ -58,16 +58,32 @@ bool is_folded(const Cover& cover, const Points& points, int face)
 
 std::vector<int> folded_faces(const Cover& cover, const Points& points)
 {
-    std::vector<int> all(cover.triangles.size());
-    std::iota(all.begin(), all.end(), 0);
-    return only(std::move(all), [&](int f) { return is_folded(cover, points, f); });
+    return indices_where(static_cast<int>(cover.triangles.size()), [&](int f) { return is_folded(cover, points, f); });
+}
+
+std::vector<int> folded_faces(const Cover& cover, const Points& points, const std::vector<int>& before,
+                              const std::vector<int>& moved)
+{
+    if (8 * moved.size() > points.size())
+        return folded_faces(cover, points);
+    Distinct faces(cover.triangles.size());
+    for (const int f : before)
+        faces.add(f);
+    for (const int v : moved)
+        std::for_each(cover.around.begin(v), cover.around.end(v), [&](int f) { faces.add(f); });
+    return only(faces.list(), [&](int f) { return is_folded(cover, points, f); });
 }
 
 std::vector<int> guard_folds(const Cover& cover, Points& placed, int steps,
                              const std::function<Point(int, int)>& retreat)
 {
+    return guard_folds(cover, placed, folded_faces(cover, placed), steps, retreat);
+}
+
+std::vector<int> guard_folds(const Cover& cover, Points& placed, std::vector<int> bad, int steps,
+                             const std::function<Point(int, int)>& retreat)
+{
     std::vector<int> step(placed.size(), 0);
-    std::vector<int> bad = folded_faces(cover, placed);
     Distinct vertices(placed.size());
     Distinct faces(cover.triangles.size());
     while (!bad.empty()) {

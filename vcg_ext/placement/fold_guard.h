@@ -14,11 +14,20 @@ namespace vcg_ext {
 ///
 /// \param placed  positions at step 0; on return the guarded ones
 /// \param retreat the position of a vertex at step 1 to `steps` - 1; at `steps` it is the cover's own
+/// \param bad     the faces that are folded at step 0
 /// \return per vertex the step it ended at
+std::vector<int> guard_folds(const Cover& cover, Points& placed, std::vector<int> bad, int steps,
+                             const std::function<Point(int vertex, int step)>& retreat);
+
+/// The same, which looks for those faces itself.
 std::vector<int> guard_folds(const Cover& cover, Points& placed, int steps,
                              const std::function<Point(int vertex, int step)>& retreat);
 
 /// Faces of `points` that are folded against the cover, in ascending order.
 [[nodiscard]] std::vector<int> folded_faces(const Cover& cover, const Points& points);
+
+/// The same, in any order, where only the vertices `moved` are elsewhere than when it was `before`.
+[[nodiscard]] std::vector<int> folded_faces(const Cover& cover, const Points& points, const std::vector<int>& before,
+                                            const std::vector<int>& moved);
 
 } // namespace vcg_ext
