@@ -54,15 +54,15 @@ vcg::math::Quadric<double> vertex_quadric(const Cover& cover, int v)
 
 Point selective_candidate(const Point& v, const std::array<Point, 3>& face, const Point& centre, double norm)
 {
-    const auto distance = [&](const Point& p) { return (p - centre).norm(); };
-    const Point near = nearest_in_triangle(face, centre);
-    const Point far = *std::max_element(face.begin(), face.end(),
-                                        [&](const Point& a, const Point& b) { return distance(a) < distance(b); });
-    if (norm < distance(near))
-        return radial_point(near, centre, norm);
-    if (norm > distance(far))
-        return radial_point(far, centre, norm);
-    const Point& goal = norm < distance(v) ? near : far;
+    const auto squared = [&](const Point& p) { return (p - centre).squaredNorm(); };
+    const bool inward = norm * norm < squared(v);
+    const Point goal = inward ? nearest_in_triangle(face, centre)
+                              : *std::max_element(face.begin(), face.end(), [&](const Point& a, const Point& b) {
+                                    return squared(a) < squared(b);
+                                });
+    const double reach = std::sqrt(squared(goal));
+    if (inward ? norm < reach : norm > reach)
+        return radial_point(goal, centre, norm);
     const Point reached = goal == v ? v : on_the_way(v, goal, centre, norm);
     return radial_point(reached, centre, norm); // takes off the rounding of the root
 }
