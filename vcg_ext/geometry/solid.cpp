@@ -57,8 +57,8 @@ SolidTopology solid_topology(const Surface& surface)
 
 Points solid_points(const SolidTopology& topology, const Points& vertices)
 {
-    Points points = vertices;
-    points.resize(topology.points(), Point::Zero());
+    Points points(topology.points());
+    for_each_index(topology.sites, [&](int v) { points[v] = vertices[v]; });
     place_apexes(topology, points);
     return points;
 }

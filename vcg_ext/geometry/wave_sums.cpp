@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace vcg_ext {
 
@@ -234,7 +235,9 @@ struct Sources {
     std::array<StoredLanes, monomials> by_normal[3] = {};
 
     /// Adds triangles: monomials by a rule that is exact to the second degree (three points) or the fourth (six).
-    void add(const Quad& a, const Quad& b, const Quad& c, const Quad& n, bool tiny)
+    template <int... m>
+    void add(const Quad& a, const Quad& b, const Quad& c, const Quad& n, bool tiny,
+             std::integer_sequence<int, m...> /*all monomials: as constants, so that powers are no look-ups*/)
     {
         std::array<StoredLanes, monomials> mean{};
         const auto point = [&](double of_a, double of_b, double of_c, double weight) {
@@ -245,8 +248,7 @@ struct Sources {
                 for (int e = 1; e <= degree; ++e)
                     power[axis][e] = power[axis][e - 1] * p;
             }
-            for (int m = 0; m < monomials; ++m)
-                mean[m].value += weight * (power[0][of_x[m].x] * power[1][of_x[m].y] * power[2][of_x[m].z]);
+            ((mean[m].value += weight * (power[0][of_x[m].x] * power[1][of_x[m].y] * power[2][of_x[m].z])), ...);
         };
         const auto three = [&](double far, double near, double weight) {
             point(far, near, near, weight);
@@ -260,8 +262,7 @@ struct Sources {
             three(0.816847572980459, 0.091576213509771, 0.109951743655322);
         }
         for (int axis = 0; axis < 3; ++axis)
-            for (int m = 0; m < monomials; ++m)
-                by_normal[axis][m].value += n.of[axis] * mean[m].value;
+            ((by_normal[axis][m].value += n.of[axis] * mean[m].value), ...);
     }
 
     [[nodiscard]] std::array<double, products> polynomial() const
@@ -314,9 +315,7 @@ struct Grid {
 Grid sort(const Points& points, const std::vector<Triangle>& triangles, double edge, std::vector<int>& own)
 {
     const int count = static_cast<int>(triangles.size());
-    Eigen::AlignedBox3d box;
-    for (const Point& p : points)
-        box.extend(p);
+    const Eigen::AlignedBox3d box = bounding_box(points);
     Grid grid;
     const Eigen::Array3d span = (box.sizes() / edge).array().floor() + 1;
     if (!(span.prod() < 3e7)) {
@@ -357,12 +356,13 @@ Grid sort(const Points& points, const std::vector<Triangle>& triangles, double e
 
 } // namespace cells
 
-/// Greatest phase between a triangle's centroid and a corner.
-double spread_of(const Points& points, const Triangle& t, double largest)
+/// Greatest squared phase between a triangle's centroid and a corner.
+double squared_spread(const Points& points, const Triangle& t, double largest)
 {
     const Point centre = (points[t[0]] + points[t[1]] + points[t[2]]) / 3;
-    return largest * std::sqrt(std::max({(points[t[0]] - centre).squaredNorm(), (points[t[1]] - centre).squaredNorm(),
-                                         (points[t[2]] - centre).squaredNorm()}));
+    return largest * largest *
+           std::max({(points[t[0]] - centre).squaredNorm(), (points[t[1]] - centre).squaredNorm(),
+                     (points[t[2]] - centre).squaredNorm()});
 }
 
 VCG_EXT_VECTORIZED void add_triangle(const Columns& q, const Points& points, const Triangle& t, double spread,
@@ -398,9 +398,9 @@ VCG_EXT_VECTORIZED void add_cell(const Columns& q, const std::vector<StoredLanes
             b.put(lane, points[t[1]] - centre);
             c.put(lane, points[t[2]] - centre);
             n.put(lane, scaled_normal(points, t) / 2);
-            tiny = tiny && spread_of(points, t, largest) < 0.12;
+            tiny = tiny && squared_spread(points, t, largest) < 0.12 * 0.12;
         }
-        sources.add(a, b, c, n, tiny);
+        sources.add(a, b, c, n, tiny, std::make_integer_sequence<int, cells::monomials>());
     }
     cells::add(q, powers, centre, sources.polynomial(), sums);
 }
@@ -434,7 +434,8 @@ std::vector<std::complex<double>> solid_transform(const Points& points, const st
         largest = std::max(largest, wave.norm());
 
     std::vector<int> own(count);
-    for_each_index(count, [&](int f) { own[f] = spread_of(points, triangles[f], largest) < 0.45 ? 0 : -1; });
+    for_each_index(count,
+                   [&](int f) { own[f] = squared_spread(points, triangles[f], largest) < 0.45 * 0.45 ? 0 : -1; });
     cells::Grid grid;
     if (count > 4096)
         grid = cells::sort(points, triangles, cells::size / largest, own);
@@ -451,7 +452,7 @@ std::vector<std::complex<double>> solid_transform(const Points& points, const st
         PartialSums sums = nothing();
         for (int f = begin; f < end; ++f)
             if (own[f] < 0)
-                add_triangle(q, points, triangles[f], spread_of(points, triangles[f], largest), sums);
+                add_triangle(q, points, triangles[f], std::sqrt(squared_spread(points, triangles[f], largest)), sums);
         partial[begin / chunk] = std::move(sums);
     });
     for_chunks(cell_count, cells_chunk, [&](int begin, int end) {

@@ -27,6 +27,18 @@ constexpr double enough_part = 0.84; ///< of the way: where it would be less, st
 constexpr int rungs_down = 2;        ///< or so many
 constexpr double readable = 0.05;    ///< of a step: above it the mark is not worth having
 
+/// The m_k of the body's points as they are in some frame.
+std::vector<double> values_in_frame(const WaveBody& body, const Points& points, const Frame& frame,
+                                    const WavePlan& plan)
+{
+    std::vector<std::complex<double>> transform =
+        solid_transform(points, body.topology.triangles, plan.vectors, longest_wave);
+    if (frame.measure < 0)
+        for (std::complex<double>& value : transform)
+            value = -value;
+    return wave_values_of(transform, plan.phases, false);
+}
+
 /// The m_k of vertices as they are now, in the solid's own frame.
 std::vector<double> values_now(const WaveBody& body, const Points& vertices, const WavePlan& plan)
 {
@@ -35,12 +47,7 @@ std::vector<double> values_now(const WaveBody& body, const Points& vertices, con
     if (frame.measure == 0)
         throw Error("The marked mesh would enclose nothing.");
     points = canonical(frame, points);
-    std::vector<std::complex<double>> transform =
-        solid_transform(points, body.topology.triangles, plan.vectors, longest_wave);
-    if (frame.measure < 0)
-        for (std::complex<double>& value : transform)
-            value = -value;
-    return wave_values_of(transform, plan.phases, false);
+    return values_in_frame(body, points, frame, plan);
 }
 
 /// From each value to the nearest point of its lattice.
@@ -77,8 +84,8 @@ WaveEmbedding embed_waves(const Cover& cover, const WavePlan& plan, const Bits& 
         throw Error("The mesh has fewer vertices than there are waves.");
     WaveEmbedding result;
     (void)wave_step(body, strength, waves, &result.rung);
-    const WaveField field(body, plan);
-    const Points directions = offset_directions(body);
+    const WaveField field(body, plan, cover.around);
+    const Points directions = offset_directions(body, cover.around);
     const int vertices = static_cast<int>(cover.points.size());
 
     std::vector<double> offset(body.topology.sites, 0); // canonical
@@ -102,7 +109,8 @@ WaveEmbedding embed_waves(const Cover& cover, const WavePlan& plan, const Bits& 
     for (int turn = 0;; ++turn) {
         report(progress, 100 * turn / (most_rounds + 1), "Waves");
         Points placed = turn == 0 ? cover.points : place(offset);
-        const std::vector<double> now = values_now(body, placed, plan);
+        const std::vector<double> now =
+            turn == 0 ? values_in_frame(body, body.points, body.frame, plan) : values_now(body, placed, plan);
         if (target.empty()) {
             std::vector<double> change;
             const int lowest = result.rung - rungs_down;
@@ -153,17 +161,13 @@ WaveEmbedding embed_waves(const Cover& cover, const WavePlan& plan, const Bits& 
         throw Error(text("The mesh cannot be displaced as smoothly as Waves asks: wave %.0f, of length %.3f of the "
                          "diagonal, ends %.2f of a step from where its bit is. Take a finer mesh or another method.",
                          worst_wave, length, result.worst));
-    double squares = 0;
-    double area = 0;
-    for (int f = 0; f < body.topology.surface_triangles; ++f) {
+    const double squares = ordered_sum(body.topology.surface_triangles, 0.0, [&](int f) {
         const Triangle& t = body.topology.triangles[f];
-        const double a = scaled_normal(body.points, t).norm();
         const double s[3] = {best_offset[t[0]], best_offset[t[1]], best_offset[t[2]]};
         const double sum = s[0] + s[1] + s[2];
-        squares += a * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + sum * sum) / 12;
-        area += a;
-    }
-    result.moved = std::sqrt(squares / area) * body.radius / body.diagonal;
+        return scaled_normal(body.points, t).norm() * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + sum * sum) / 24;
+    });
+    result.moved = std::sqrt(squares / body.area) * body.radius / body.diagonal;
     if (result.moved > 2.5 * strength) {
         int least = 0;
         for (int k = 1; k < waves; ++k)

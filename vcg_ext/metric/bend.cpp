@@ -31,7 +31,7 @@ double largest_bend(const Points& normals, const Points& after, const std::vecto
         double largest = -1; // of minus the cosines
         for (int k = 0; k < 3; ++k)
             for (const int* g = around.begin(t[k]); g != around.end(t[k]); ++g)
-                if (*g > f && normals[f].dot(normals[*g]) > coplanar && has(triangles[*g], t[(k + 1) % 3]))
+                if (*g > f && has(triangles[*g], t[(k + 1) % 3]) && normals[f].dot(normals[*g]) > coplanar)
                     largest = std::max(largest, -now[f].dot(now[*g]));
         return largest;
     });

@@ -18,12 +18,13 @@ namespace {
 constexpr int sample = 20000; ///< sites in the Gram matrix: 64 waves need no more, and the loop corrects the rest
 
 /// Lumped areas: a third of those around.
-std::vector<double> site_areas(const WaveBody& body)
+std::vector<double> site_areas(const WaveBody& body, const VertexFaces& around)
 {
     std::vector<double> areas(body.topology.sites, 0);
-    for (int f = 0; f < body.topology.surface_triangles; ++f)
-        for (const int v : body.topology.triangles[f])
-            areas[v] += scaled_normal(body.points, body.topology.triangles[f]).norm() / 6;
+    for_each_index(body.topology.sites, [&](int v) {
+        for (const int* f = around.begin(v); f != around.end(v); ++f)
+            areas[v] += scaled_normal(body.points, body.topology.triangles[*f]).norm() / 6;
+    });
     return areas;
 }
 
@@ -72,35 +73,37 @@ std::vector<double> hat_means(const WaveBody& body, const WavePlan& plan, const 
 
 } // namespace
 
-Points offset_directions(const WaveBody& body)
+VertexFaces faces_around(const WaveBody& body)
+{
+    const auto first = body.topology.triangles.begin();
+    return vertex_faces(body.topology.sites, {first, first + body.topology.surface_triangles});
+}
+
+Points offset_directions(const WaveBody& body, const VertexFaces& around)
 {
     constexpr double ridge = 1e-4;
     constexpr double longest = 3;
     const double outward = body.frame.measure < 0 ? -1 : 1;
-    const int sites = body.topology.sites;
-    std::vector<Eigen::Matrix3d> planes(sites, Eigen::Matrix3d::Zero());
-    Points sums(sites, Point::Zero());
-    for (int f = 0; f < body.topology.surface_triangles; ++f) {
-        const Triangle& t = body.topology.triangles[f];
-        Point n = outward * scaled_normal(body.points, t);
-        const double doubled = n.norm();
-        if (!(doubled > 0))
-            continue;
-        n /= doubled;
-        for (const int v : t) {
-            planes[v] += doubled * n * n.transpose();
-            sums[v] += doubled * n;
+    Points directions(body.topology.sites, Point::Zero());
+    for_each_index(body.topology.sites, [&](int v) {
+        Eigen::Matrix3d planes = Eigen::Matrix3d::Zero();
+        Point sum = Point::Zero();
+        for (const int* f = around.begin(v); f != around.end(v); ++f) {
+            Point n = outward * scaled_normal(body.points, body.topology.triangles[*f]);
+            const double doubled = n.norm();
+            if (!(doubled > 0))
+                continue;
+            n /= doubled;
+            planes += doubled * n * n.transpose();
+            sum += doubled * n;
         }
-    }
-    Points directions(sites, Point::Zero());
-    for_each_index(sites, [&](int v) {
-        const double weight = planes[v].trace();
-        const double length = sums[v].norm();
+        const double weight = planes.trace();
+        const double length = sum.norm();
         if (!(weight > 0) || !(length > 0))
             return;
         // The ridge draws towards the mean normal, where nothing else says which way.
-        const Eigen::Matrix3d m = planes[v] + ridge * weight * Eigen::Matrix3d::Identity();
-        Point u = m.ldlt().solve(sums[v] + ridge * weight * sums[v] / length);
+        const Eigen::Matrix3d m = planes + ridge * weight * Eigen::Matrix3d::Identity();
+        Point u = m.ldlt().solve(sum + ridge * weight * sum / length);
         if (const double size = u.norm(); size > longest)
             u *= longest / size;
         directions[v] = u;
@@ -108,11 +111,11 @@ Points offset_directions(const WaveBody& body)
     return directions;
 }
 
-WaveField::WaveField(const WaveBody& body, const WavePlan& plan) : body_(body), plan_(plan)
+WaveField::WaveField(const WaveBody& body, const WavePlan& plan, const VertexFaces& around) : body_(body), plan_(plan)
 {
     const int sites = body.topology.sites;
     const int count = plan.count();
-    const std::vector<double> areas = site_areas(body);
+    const std::vector<double> areas = site_areas(body, around);
     area_ = body.area;
     // Means matter where an edge is a good part of a radian of the shortest wave.
     const double edge = std::sqrt(2 * body.area / std::max(1, body.topology.surface_triangles)) * 20;
@@ -129,10 +132,13 @@ WaveField::WaveField(const WaveBody& body, const WavePlan& plan) : body_(body), 
         weights_.push_back(sum > 0 ? areas[v] * area_ / sum : 0);
     const std::vector<double> at = at_sites(sampled_);
     const int rows = static_cast<int>(sampled_.size());
-    gram_ = ordered_sum(rows, Eigen::MatrixXd(Eigen::MatrixXd::Zero(count, count)), [&](int i) -> Eigen::MatrixXd {
-        const Eigen::Map<const Eigen::VectorXd> w(at.data() + static_cast<std::size_t>(i) * count, count);
-        return weights_[i] * w * w.transpose();
-    });
+    gram_ = ordered_fold(
+        rows, Eigen::MatrixXd(Eigen::MatrixXd::Zero(count, count)),
+        [&](Eigen::MatrixXd& sum, int i) {
+            const Eigen::Map<const Eigen::VectorXd> w(at.data() + static_cast<std::size_t>(i) * count, count);
+            sum.noalias() += (weights_[i] * w).eval() * w.transpose();
+        },
+        [](Eigen::MatrixXd& sum, const Eigen::MatrixXd& part) { sum += part; });
     const double ridge = 1e-6 * gram_.trace() / count;
     solver_.compute(gram_ + ridge * Eigen::MatrixXd::Identity(count, count));
 }

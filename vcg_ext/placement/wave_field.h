@@ -11,13 +11,24 @@ namespace vcg_ext {
 ///
 /// The averaged normal would leave the sides of a crease behind and bend them where they end. Where all faces lie
 /// nearly in one plane, the directions along it are left alone; no vector is longer than 3.
-[[nodiscard]] Points offset_directions(const WaveBody& body);
+/// \param around see faces_around()
+[[nodiscard]] Points offset_directions(const WaveBody& body, const VertexFaces& around);
+
+/// The faces around each site, without fans.
+[[nodiscard]] VertexFaces faces_around(const WaveBody& body);
+
+[[nodiscard]] inline Points offset_directions(const WaveBody& body)
+{
+    return offset_directions(body, faces_around(body));
+}
 
 /// The least field along the surface that changes every m_k by a given amount: s = sum of a_k w_k, G a = 4 pi dm, where
 /// w_k(v) is the mean of wave k around the site v (by its hat function) and G_kl = sum of A_v w_k w_l. Canonical units.
 class WaveField {
 public:
-    WaveField(const WaveBody& body, const WavePlan& plan);
+    /// \param around see faces_around()
+    WaveField(const WaveBody& body, const WavePlan& plan, const VertexFaces& around);
+    WaveField(const WaveBody& body, const WavePlan& plan) : WaveField(body, plan, faces_around(body)) {}
 
     /// s per site. \param change dm, per wave
     [[nodiscard]] std::vector<double> least(const std::vector<double>& change) const;
