@@ -5,7 +5,6 @@
 #include "../base/parallel.h"
 #include "../geometry/centre.h"
 
-
 namespace vcg_ext {
 
 std::vector<double> norms(const Points& points, const Point& centre)
