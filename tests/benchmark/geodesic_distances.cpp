@@ -29,8 +29,9 @@ try {
         const int vertex = std::stoi(arguments[3]);
         source = {*around.begin(vertex), surface.points.at(vertex)};
     }
-    for (const Arrival& arrival : march(surface, around, source))
-        std::printf("%.17g\n", arrival.distance);
+    for (const double distance :
+         distances_from(source, surface.points, surface.triangles, fans_of(around, surface.triangles)))
+        std::printf("%.17g\n", distance);
 } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

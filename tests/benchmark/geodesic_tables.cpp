@@ -221,13 +221,14 @@ void attacks()
                             continue; // no common coordinates to compare in
                         const Welded before = weld(stego);
                         const Welded after = weld(attacked);
-                        const VertexFaces around =
-                            vertex_faces(static_cast<int>(before.surface.points.size()), before.surface.triangles);
+                        const auto& [points, triangles] = before.surface;
+                        const int sites = static_cast<int>(points.size());
+                        const Fans fans = fans_of(vertex_faces(sites, triangles), triangles);
                         const Points directions = source_directions(key_number(key).stream("direction"));
                         const StripFrame frame =
                             strip_frame(before.surface, principal_frame(before.surface), directions);
-                        const Strips strips = strips_from(frame, before.surface, around,
-                                                          static_cast<int>(before.surface.points.size()), 0.1, 64);
+                        const Strips strips =
+                            strips_from(frame, distances_from(frame.source, points, triangles, fans), sites, 0.1, 64);
                         shifts.push_back(
                             (strip_frame(after.surface, principal_frame(after.surface), directions).source.position -
                              frame.source.position)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/load.h"
+#include "support/march.h"
 #include "support/shapes.h"
 #include "vcg_ext/geometry/fast_marching.h"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/load.h"
+#include "support/march.h"
 #include "support/shapes.h"
+#include "vcg_ext/base/parallel.h"
 #include "vcg_ext/placement/fold_guard.h"
 #include "vcg_ext/placement/front.h"
 
@@ -111,6 +113,22 @@ TEST_P(EveryScheme, MovesNothingThatHasNoTargetOrIsThere)
     const FrontPlacement nowhere = place_front(setting.cover, setting.arrivals, setting.targets, 1e-6, {GetParam()});
     EXPECT_EQ(nowhere.counts.total(), 0);
     EXPECT_EQ(nowhere.points, setting.surface.points);
+}
+
+TEST_P(EveryScheme, IsTheSameAtAnyNumberOfThreads)
+{
+    Setting setting(shapes::sphere(4));
+    setting.wave(0.3, 0.03, 0.05);
+    const auto place = [&](int threads) {
+        set_threads(threads);
+        const FrontPlacement placed = place_front(setting.cover, setting.arrivals, setting.targets, 1e-6, {GetParam()});
+        set_threads(0);
+        return placed;
+    };
+    const FrontPlacement one = place(1);
+    const FrontPlacement four = place(4);
+    EXPECT_EQ(one.points, four.points);
+    EXPECT_EQ(one.counts.moves, four.counts.moves);
 }
 
 INSTANTIATE_TEST_SUITE_P(Front, EveryScheme, testing::Values(FrontScheme::PredictCorrect, FrontScheme::Sequential),

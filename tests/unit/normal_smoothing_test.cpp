@@ -10,9 +10,10 @@ using namespace vcg_ext;
 
 namespace {
 
-VertexFaces around(const Surface& s)
+Points smoothed(const Surface& s, int rounds)
 {
-    return vertex_faces(static_cast<int>(s.points.size()), s.triangles);
+    const Fans fans = fans_of(vertex_faces(static_cast<int>(s.points.size()), s.triangles), s.triangles);
+    return smoothed_along_normals(s.points, fans, rounds, 0.5);
 }
 
 TEST(NormalSmoothing, LeavesAPlaneAloneHoweverItIsSampled)
@@ -21,7 +22,7 @@ TEST(NormalSmoothing, LeavesAPlaneAloneHoweverItIsSampled)
     std::mt19937 draws(1);
     for (Point& p : s.points)
         p += 0.02 * Point(draws() % 100 / 100.0, draws() % 100 / 100.0, 0);
-    const Points smooth = smoothed_along_normals(s, around(s), 3, 0.5);
+    const Points smooth = smoothed(s, 3);
     for (std::size_t v = 0; v < smooth.size(); ++v)
         EXPECT_LT((smooth[v] - s.points[v]).norm(), 1e-15);
 }
@@ -39,13 +40,13 @@ TEST(NormalSmoothing, TakesRoughnessAway)
             sum += (p.norm() - 1) * (p.norm() - 1);
         return std::sqrt(sum / static_cast<double>(points.size()));
     };
-    EXPECT_LT(roughness(smoothed_along_normals(s, around(s), 3, 0.5)), 0.6 * roughness(s.points));
+    EXPECT_LT(roughness(smoothed(s, 3)), 0.6 * roughness(s.points));
 }
 
 TEST(NormalSmoothing, MovesAlongTheNormalsOnly)
 {
     const Surface s = shapes::sphere(3);
-    const Points smooth = smoothed_along_normals(s, around(s), 1, 0.5);
+    const Points smooth = smoothed(s, 1);
     for (std::size_t v = 0; v < smooth.size(); ++v) {
         EXPECT_LT(smooth[v].norm(), s.points[v].norm());
         EXPECT_LT(smooth[v].cross(s.points[v]).norm(), 0.002);
@@ -55,7 +56,7 @@ TEST(NormalSmoothing, MovesAlongTheNormalsOnly)
 TEST(NormalSmoothing, NoRoundsAreNoChange)
 {
     const Surface s = shapes::sphere(2);
-    EXPECT_EQ(smoothed_along_normals(s, around(s), 0, 0.5), s.points);
+    EXPECT_EQ(smoothed(s, 0), s.points);
 }
 
 } // namespace

@@ -23,9 +23,12 @@ const Key& test_key()
     return key;
 }
 
-VertexFaces around(const Surface& s)
+Strips strips_about(const SurfacePoint& source, const Surface& s, int count)
 {
-    return vertex_faces(static_cast<int>(s.points.size()), s.triangles);
+    const int vertices = static_cast<int>(s.points.size());
+    const Fans fans = fans_of(vertex_faces(vertices, s.triangles), s.triangles);
+    return strips_from({source, {}, false, {}}, distances_from(source, s.points, s.triangles, fans), vertices, 0.1,
+                       count);
 }
 
 SurfacePoint keyed_source(const Surface& s, const Key& key)
@@ -80,8 +83,7 @@ TEST(Strips, AreCutFromTheSourceToTheFarthestVertex)
 {
     const Surface s = shapes::sphere(5);
     const SurfacePoint source = *farthest_hit(s, Point::Zero(), Point(3, 2, 1));
-    const Strips strips =
-        strips_from({source, {}, false, {}}, s, around(s), static_cast<int>(s.points.size()), 0.1, 16);
+    const Strips strips = strips_about(source, s, 16);
     const double pi = std::acos(-1.0);
     double farthest = 0; // over vertices
     for (const Point& p : s.points)
@@ -105,7 +107,7 @@ TEST(Strips, OtherPartsCarryNothing)
     const Surface sphere = shapes::sphere(4);
     const Surface s = joined(sphere, shapes::moved(shapes::box(1, 1, 1), 0.1, 0, {1, 0, 0}, {0, 0, 0}));
     const SurfacePoint source{0, s.points[s.triangles[0][0]]};
-    const Strips strips = strips_from({source, {}, false, {}}, s, around(s), static_cast<int>(s.points.size()), 0.1, 8);
+    const Strips strips = strips_about(source, s, 8);
     EXPECT_EQ(strips.unreached, 8);
     EXPECT_NEAR(strips.farthest, std::acos(-1.0), 0.05);
     for (std::size_t v = sphere.points.size(); v < s.points.size(); ++v)

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace vcg_ext {
 
@@ -62,17 +63,16 @@ StripFrames strip_frames(const Surface& closed, const Frame& frame, const Points
     return frames;
 }
 
-Strips strips_from(const StripFrame& frame, const Surface& closed, const VertexFaces& around, int carrying, double trim,
-                   int count)
+Strips strips_from(const StripFrame& frame, std::vector<double> distances, int carrying, double trim, int count)
 {
     Strips strips;
-    strips.arrivals = march(closed, around, frame.source);
-    strips.carrying = carrying;
-    for (int v = 0; v < carrying; ++v) {
-        if (std::isinf(strips.arrivals[v].distance))
+    strips.distances = std::move(distances);
+    strips.distances.resize(carrying);
+    for (const double distance : strips.distances) {
+        if (std::isinf(distance))
             ++strips.unreached;
         else
-            strips.farthest = std::max(strips.farthest, strips.arrivals[v].distance);
+            strips.farthest = std::max(strips.farthest, distance);
     }
     if (frame.farthest)
         strips.farthest = *frame.farthest;
@@ -82,11 +82,7 @@ Strips strips_from(const StripFrame& frame, const Surface& closed, const VertexF
 
 Carriers recut(const Strips& strips, double trim, int count)
 {
-    std::vector<double> distances;
-    distances.reserve(strips.carrying);
-    for (int v = 0; v < strips.carrying; ++v)
-        distances.push_back(strips.arrivals[v].distance);
-    return cut_range(distances, 0, strips.farthest, trim, count);
+    return cut_range(strips.distances, 0, strips.farthest, trim, count);
 }
 
 SurfacePoint carried_along(const SurfacePoint& source, const Surface& surface, const Points& points)
@@ -104,17 +100,19 @@ SurfacePoint carried_along(const SurfacePoint& source, const Surface& surface, c
     return {source.face, points[a] + along_b * (points[b] - points[a]) + along_c * (points[c] - points[a])};
 }
 
-Strips read_strips(const Surface& closed, const VertexFaces& around, int carrying, const StripFrame& frame, double trim,
+Strips read_strips(const Surface& closed, const Fans& fans, int carrying, const StripFrame& frame, double trim,
                    int count, Statistic statistic)
 {
     constexpr std::array<int, 3> rounds = {0, 1, 3};
+    std::array<Points, rounds.size()> smooth = {closed.points};
+    for (std::size_t i = 1; i < rounds.size(); ++i)
+        smooth[i] = smoothed_along_normals(smooth[i - 1], fans, rounds[i] - rounds[i - 1], 0.5);
     std::array<Strips, rounds.size()> strips;
     std::array<double, rounds.size()> found{};
     for_chunks(static_cast<int>(rounds.size()), 1, [&](int i, int) { // a march goes on one core
-        const Surface smooth{smoothed_along_normals(closed, around, rounds[i], 0.5), closed.triangles};
-        StripFrame here = frame;
-        here.source = carried_along(frame.source, closed, smooth.points);
-        strips[i] = strips_from(here, smooth, around, carrying, trim, count);
+        const SurfacePoint source = carried_along(frame.source, closed, smooth[i]);
+        strips[i] =
+            strips_from(frame, distances_from(source, smooth[i], closed.triangles, fans), carrying, trim, count);
         strips[i].smoothing_rounds = rounds[i];
         found[i] = evidence(strips[i].carriers, statistic);
     });

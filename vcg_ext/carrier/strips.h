@@ -25,8 +25,7 @@ using StripFrames = std::vector<StripFrame>;
 
 /// Strips of equal geodesic distance from a point that only the key knows.
 struct Strips {
-    std::vector<Arrival> arrivals; ///< per point of the surface
-    int carrying = 0;              ///< of these the first, the vertices; after them come the apexes of holes
+    std::vector<double> distances; ///< per vertex; infinite where no path of faces leads to it
     double farthest = 0;           ///< T_max
     Carriers carriers;
     int smoothing_rounds = 0; ///< of the surface before the march, see read_strips()
@@ -48,10 +47,10 @@ struct Strips {
 /// The same for each way in which the body may be held, that of `frame` first.
 [[nodiscard]] StripFrames strip_frames(const Surface& closed, const Frame& frame, const Points& directions);
 
-/// Distances from the frame's source, and the strips between `trim` and 1 - `trim` of the farthest ((4.4)-(4.6) with
-/// their offset put right). \param around of the surface's triangles
-[[nodiscard]] Strips strips_from(const StripFrame& frame, const Surface& closed, const VertexFaces& around,
-                                 int carrying, double trim, int count);
+/// The strips between `trim` and 1 - `trim` of the farthest distance from the frame's source ((4.4)-(4.6) with their
+/// offset put right). \param distances per point of the closed surface, see distances_from()
+[[nodiscard]] Strips strips_from(const StripFrame& frame, std::vector<double> distances, int carrying, double trim,
+                                 int count);
 
 /// The strips, were there `count` of them.
 [[nodiscard]] Carriers recut(const Strips& strips, double trim, int count);
@@ -65,7 +64,7 @@ struct Strips {
 /// smoothing along the normals, which keeps the density along the surface that carries the mark. That reading is taken
 /// whose statistics lie farthest from their threshold: largest sum of n s^2. It never looks at the mask, so p stays
 /// exact.
-[[nodiscard]] Strips read_strips(const Surface& closed, const VertexFaces& around, int carrying,
-                                 const StripFrame& frame, double trim, int count, Statistic statistic);
+[[nodiscard]] Strips read_strips(const Surface& closed, const Fans& fans, int carrying, const StripFrame& frame,
+                                 double trim, int count, Statistic statistic);
 
 } // namespace vcg_ext

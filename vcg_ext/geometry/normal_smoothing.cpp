@@ -5,22 +5,35 @@
 
 namespace vcg_ext {
 
-Points smoothed_along_normals(const Surface& surface, const VertexFaces& around, int rounds, double weight)
+Points smoothed_along_normals(Points points, const Fans& fans, int rounds, double weight)
 {
-    Points points = surface.points;
+    Points before(rounds > 0 ? points.size() : 0);
     for (int round = 0; round < rounds; ++round) {
-        const Points before = points;
-        for_each_index(static_cast<int>(points.size()), [&](int v) {
+        points.swap(before);
+        for_each_index(fans.vertices(), [&](int v) {
             Point normal = Point::Zero();
-            Point neighbours = Point::Zero(); // each counts once for every face it shares with v
-            for (const int* f = around.begin(v); f != around.end(v); ++f) {
-                const Triangle& t = surface.triangles[*f];
-                normal += scaled_normal(before, t);
-                neighbours += before[t[0]] + before[t[1]] + before[t[2]] - before[v];
+            Point steps = Point::Zero(); // to the neighbours, each once for every face it shares with v
+            int count = 0;
+            Point last = Point::Zero();
+            bool begins = true;
+            for (const int* w = fans.begin(v); w != fans.end(v); ++w) {
+                if (*w == Fans::gap) {
+                    begins = true;
+                    continue;
+                }
+                const Point step = before[*w] - before[v];
+                if (!begins) {
+                    normal += last.cross(step);
+                    steps += last + step;
+                    count += 2;
+                }
+                last = step;
+                begins = false;
             }
             const double square = normal.squaredNorm();
+            points[v] = before[v];
             if (square > 0)
-                points[v] += weight * normal * (normal.dot(neighbours / (2 * around.count(v)) - before[v]) / square);
+                points[v] += weight * normal * (normal.dot(steps) / (count * square));
         });
     }
     return points;

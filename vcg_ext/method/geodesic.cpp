@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace vcg_ext {
 
@@ -15,9 +16,9 @@ namespace {
 std::vector<double> front_targets(const Cover& cover, const Strips& strips, const Triangle& source_face,
                                   const std::vector<double>& told)
 {
-    std::vector<double> targets(strips.arrivals.size(), std::numeric_limits<double>::quiet_NaN());
-    for (int v = 0; v < strips.carrying; ++v) {
-        const double old = strips.arrivals[v].distance;
+    std::vector<double> targets(cover.points.size(), std::numeric_limits<double>::quiet_NaN());
+    for (int v = 0; v < static_cast<int>(strips.distances.size()); ++v) {
+        const double old = strips.distances[v];
         if (old >= strips.carriers.low && std::isfinite(old) && !cover.holds(v))
             targets[v] = std::isnan(told[v]) ? old : told[v];
     }
@@ -57,7 +58,8 @@ class Distance {
 public:
     Distance(const Cover& cover, const Plan& plan, FrontScheme scheme)
         : topology_(solid_topology(cover.surface)), closed_(closed(topology_, cover.points)),
-          axes_(principal_frame(closed_.points, topology_)), cover_(closed_, cover.held), plan_(plan), scheme_(scheme)
+          axes_(principal_frame(closed_.points, topology_)), cover_(closed_, cover.held),
+          fans_(fans_of(cover_.around, cover_.triangles)), plan_(plan), scheme_(scheme)
     {
     }
 
@@ -72,8 +74,8 @@ public:
 
     [[nodiscard]] Carriers read(const Points& points, const StripFrame& frame) const
     {
-        return read_strips(closed(topology_, points), cover_.around, topology_.sites, frame, plan_.trim,
-                           plan_.options.bits, plan_.options.statistic)
+        return read_strips(closed(topology_, points), fans_, topology_.sites, frame, plan_.trim, plan_.options.bits,
+                           plan_.options.statistic)
             .carriers;
     }
 
@@ -81,7 +83,7 @@ public:
     {
         const Surface marked = closed(topology_, points);
         frame.farthest =
-            strips_from(frame, marked, cover_.around, topology_.sites, plan_.trim, plan_.options.bits).farthest;
+            strips_in(frame, distances_from(frame.source, marked.points, marked.triangles, fans_)).farthest;
         frame.source = carried_along(frame.source, marked, cover_.points);
         return frame;
     }
@@ -89,7 +91,9 @@ public:
     void aim(const StripFrame& frame)
     {
         frame_ = frame;
-        strips_ = strips_from(frame, closed_, cover_.around, topology_.sites, plan_.trim, plan_.options.bits);
+        std::vector<double> distances = distances_from(frame.source, cover_.points, cover_.triangles, fans_);
+        arrivals_ = arrivals_of(distances, frame.source, closed_, cover_.around);
+        strips_ = strips_in(frame, std::move(distances));
     }
 
     [[nodiscard]] Carriers cut(int count) const { return recut(strips_, plan_.trim, count); }
@@ -100,7 +104,7 @@ public:
     [[nodiscard]] std::vector<double> mobility() const
     {
         std::vector<double> result = scheme_ == FrontScheme::PredictCorrect
-                                         ? front_mobility(cover_, strips_.arrivals)
+                                         ? front_mobility(cover_, arrivals_)
                                          : std::vector<double>(cover_.points.size(), 1);
         for (std::size_t v = 0; v < cover_.held.size(); ++v)
             if (cover_.held[v])
@@ -112,9 +116,9 @@ public:
     {
         FrontOptions front;
         front.scheme = scheme_;
-        FrontPlacement placed = place_front(cover_, strips_.arrivals,
-                                            front_targets(cover_, strips_, cover_.triangles[frame_.source.face], told),
-                                            1e-4 * strips_.carriers.width, front);
+        FrontPlacement placed =
+            place_front(cover_, arrivals_, front_targets(cover_, strips_, cover_.triangles[frame_.source.face], told),
+                        1e-4 * strips_.carriers.width, front);
         Proposal proposal;
         proposal.points = std::move(placed.points);
         proposal.points.resize(topology_.sites);
@@ -126,14 +130,21 @@ public:
     [[nodiscard]] std::vector<std::string> warnings() const { return warnings_of(frame_, strips_); }
 
 private:
+    [[nodiscard]] Strips strips_in(const StripFrame& frame, std::vector<double> distances) const
+    {
+        return strips_from(frame, std::move(distances), topology_.sites, plan_.trim, plan_.options.bits);
+    }
+
     SolidTopology topology_;
     Surface closed_;
     Frame axes_;  ///< of the cover
     Cover cover_; ///< the closed surface
+    Fans fans_;
     const Plan& plan_;
     FrontScheme scheme_;
     StripFrame frame_;
-    Strips strips_; ///< of the cover, in that frame
+    std::vector<Arrival> arrivals_; ///< on the cover, in that frame
+    Strips strips_;
 };
 
 } // namespace
@@ -161,14 +172,14 @@ Readings read_geodesic(const Surface& surface, const Plan& plan, const MarkFrame
 {
     const SolidTopology topology = solid_topology(surface);
     const Surface body = closed(topology, surface.points);
-    const VertexFaces around = vertex_faces(topology.points(), topology.triangles);
+    const Fans fans = fans_of(vertex_faces(topology.points(), topology.triangles), topology.triangles);
     const auto& frames = std::get<StripFrames>(frame);
     Readings readings;
     std::vector<Reading> ways;
     double most = -1;
     for (const StripFrame& held : frames) {
         Strips strips =
-            read_strips(body, around, topology.sites, held, plan.trim, plan.options.bits, plan.options.statistic);
+            read_strips(body, fans, topology.sites, held, plan.trim, plan.options.bits, plan.options.statistic);
         Readings here = read_carriers(std::move(strips.carriers), plan);
         ways.push_back(std::move(here.ways.front()));
         ways.back().weight = 1.0 / static_cast<double>(frames.size());
@@ -195,16 +206,17 @@ Readings read_geodesic_copy(const Copy& copy, const Plan& plan, const MarkFrame&
 {
     const SolidTopology topology = solid_topology(copy.original);
     const Surface original = closed(topology, copy.original.points);
-    const VertexFaces around = vertex_faces(topology.points(), topology.triangles);
-    const Strips strips = strips_from(std::get<StripFrames>(frame).front(), original, around, topology.sites, plan.trim,
-                                      plan.options.bits);
+    const Fans fans = fans_of(vertex_faces(topology.points(), topology.triangles), topology.triangles);
+    const StripFrame& first = std::get<StripFrames>(frame).front();
+    const Strips strips = strips_from(first, distances_from(first.source, original.points, original.triangles, fans),
+                                      topology.sites, plan.trim, plan.options.bits);
     std::vector<double> distances;
     for (const Foot& foot : copy.feet()) {
         double distance = -1;
         if (foot.face >= 0 && !foot.on_rim) {
             distance = 0;
             for (int k = 0; k < 3; ++k)
-                distance += foot.weights[k] * strips.arrivals[original.triangles[foot.face][k]].distance;
+                distance += foot.weights[k] * strips.distances[original.triangles[foot.face][k]];
         }
         distances.push_back(distance);
     }
