@@ -4,6 +4,7 @@
 #include "support/load.h"
 #include "support/topology.h"
 #include "vcg_ext/attack/reorder.h"
+#include "vcg_ext/geometry/curve.h"
 #include "vcg_ext/geometry/edge_graph.h"
 
 #include <gtest/gtest.h>
@@ -60,11 +61,13 @@ TEST(Rings, ComeOneAfterTheOtherPieceByPiece)
         EXPECT_EQ(std::binary_search(near.begin(), near.end(), v), distance[v] <= 5);
 }
 
-TEST(Rings, NumberTheSameBodyAnew)
+class Numbering : public testing::TestWithParam<void (*)(Body&)> {};
+
+TEST_P(Numbering, LeavesTheBodyTheSame)
 {
     const Surface surface = reorder(load("fandisk.off"), 3);
     Body body = body_of(surface);
-    number_by_rings(body);
+    GetParam()(body);
     ASSERT_EQ(body.surface.points.size(), surface.points.size());
     for (std::size_t v = 0; v < surface.points.size(); ++v)
         EXPECT_EQ(body.surface.points[body.site_of_vertex[v]], surface.points[v]);
@@ -78,5 +81,7 @@ TEST(Rings, NumberTheSameBodyAnew)
     std::sort(expected.begin(), expected.end());
     EXPECT_EQ(numbered, expected);
 }
+
+INSTANTIATE_TEST_SUITE_P(Numberings, Numbering, testing::Values(number_by_rings, number_by_curve));
 
 } // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rings.h"
 
-#include "../base/parallel.h"
+#include "renumber.h"
 
 #include <algorithm>
 
@@ -30,45 +30,9 @@ std::vector<int> ring_order(int vertices, const std::vector<Triangle>& triangles
     return order;
 }
 
-namespace {
-
-/// By the lowest corner; equal ones stay in their order.
-std::vector<Triangle> by_first_corner(const std::vector<Triangle>& triangles, int vertices)
-{
-    const auto lowest = [](const Triangle& t) { return std::min({t[0], t[1], t[2]}); };
-    std::vector<int> place(vertices + 1, 0);
-    for (const Triangle& t : triangles)
-        ++place[lowest(t) + 1];
-    for (int v = 0; v < vertices; ++v)
-        place[v + 1] += place[v];
-    std::vector<Triangle> sorted(triangles.size());
-    for (const Triangle& t : triangles)
-        sorted[place[lowest(t)]++] = t;
-    return sorted;
-}
-
-} // namespace
-
 void number_by_rings(Body& body)
 {
-    Surface& surface = body.surface;
-    const int sites = static_cast<int>(surface.points.size());
-    const std::vector<int> order = ring_order(sites, surface.triangles);
-    std::vector<int> number(sites);
-    Points points(sites);
-    for_each_index(sites, [&](int i) {
-        number[order[i]] = i;
-        points[i] = surface.points[order[i]];
-    });
-    surface.points = std::move(points);
-    for_each_index(static_cast<int>(surface.triangles.size()), [&](int f) {
-        for (int& v : surface.triangles[f])
-            v = number[v];
-    });
-    surface.triangles = by_first_corner(surface.triangles, sites);
-    for (int& site : body.site_of_vertex)
-        if (site >= 0)
-            site = number[site];
+    renumber(body, ring_order(static_cast<int>(body.surface.points.size()), body.surface.triangles));
 }
 
 } // namespace vcg_ext

@@ -2,6 +2,7 @@
 #include "methods.h"
 
 #include "../base/text.h"
+#include "../geometry/curve.h"
 #include "../geometry/rings.h"
 #include "geodesic.h"
 #include "norms.h"
@@ -42,7 +43,7 @@ const std::vector<MethodRow>& all_methods()
          {{Method::Waves, 0}, {Method::Spectral, 4}, {Method::LM, 0.1}},
          false,
          true,
-         true,
+         number_by_rings,
          0,
          displacement,
          nullptr,
@@ -60,7 +61,7 @@ const std::vector<MethodRow>& all_methods()
          {{Method::Waves, 0}},
          false,
          true,
-         false,
+         nullptr,
          0,
          displacement,
          plan_waves,
@@ -78,7 +79,7 @@ const std::vector<MethodRow>& all_methods()
          {{Method::LM, 0}},
          true,
          false,
-         false,
+         nullptr,
          1.5,
          alpha,
          plan_norms,
@@ -96,7 +97,7 @@ const std::vector<MethodRow>& all_methods()
          {{Method::QSP, 0}},
          true,
          false,
-         false,
+         nullptr,
          1.5,
          alpha,
          plan_norms,
@@ -114,7 +115,7 @@ const std::vector<MethodRow>& all_methods()
          {{Method::Cho, 0}},
          true,
          false,
-         false,
+         nullptr,
          1.5,
          alpha,
          plan_norms,
@@ -132,7 +133,7 @@ const std::vector<MethodRow>& all_methods()
          {{Method::Geodesic, 0}},
          true,
          false,
-         true,
+         number_by_curve,
          1.5,
          alpha,
          plan_geodesic,
@@ -150,7 +151,7 @@ const std::vector<MethodRow>& all_methods()
          {{Method::Spectral, 0}},
          false,
          false,
-         true,
+         number_by_rings,
          0,
          squash,
          plan_spectral,
@@ -176,8 +177,8 @@ const MethodRow& row_of(Method method)
 Body body_for(const MethodRow& method, const Surface& surface)
 {
     Body body = body_of(surface);
-    if (method.walks)
-        number_by_rings(body);
+    if (method.number)
+        method.number(body);
     return body;
 }
 

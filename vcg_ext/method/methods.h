@@ -31,7 +31,9 @@ struct MethodRow {
     std::vector<std::pair<Method, double>> layers;
     bool has_statistic; ///< whether Statistic matters
     bool is_smooth;     ///< moves the surface by a smooth field: how well planes stay planes is reported
-    bool walks;         ///< goes from neighbour to neighbour most of its time: see number_by_rings()
+    /// How it wants the body's sites numbered, where it goes from neighbour to neighbour most of its time; null: as they
+    /// come.
+    void (*number)(Body& body);
     /// Mean soft value, in standard errors, that no unmarked mesh has; 0 where that tells nothing.
     double unmarked_strength;
     StrengthRange (*strength)(Statistic statistic);
