@@ -5,9 +5,13 @@
 #include "fold_guard.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <thread>
+#include <utility>
 
 namespace vcg_ext {
 
@@ -18,25 +22,56 @@ constexpr double never = std::numeric_limits<double>::infinity();
 /// What a move along the cover's planes costs, as a part of what distance from them costs.
 constexpr double along_surface = 0.01;
 
-/// Inverse of the metric in which moves are to be short.
-std::vector<Eigen::Matrix3d> inverse_metrics(const Cover& cover)
+/// Inverse of the metric in which moves of a vertex are to be short.
+Eigen::Matrix3d inverse_metric(const Cover& cover, int v)
 {
-    std::vector<Eigen::Matrix3d> inverse(cover.points.size());
-    for_each_index(static_cast<int>(inverse.size()), [&](int v) {
-        Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
-        double area = 0;
-        for (const int* f = cover.around.begin(v); f != cover.around.end(v); ++f) {
-            const Point& n = cover.normals[*f];
-            const double weight = cover.areas[*f];
-            normals += weight * n * n.transpose();
-            area += weight;
-        }
-        Eigen::Matrix3d metric = along_surface * Eigen::Matrix3d::Identity();
-        if (area > 0)
-            metric += (1 - along_surface) / area * normals;
-        inverse[v] = metric.inverse();
+    Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
+    double area = 0;
+    for (const int* f = cover.around.begin(v); f != cover.around.end(v); ++f) {
+        const Point& n = cover.normals[*f];
+        const double weight = cover.areas[*f];
+        normals += weight * n * n.transpose();
+        area += weight;
+    }
+    Eigen::Matrix3d metric = along_surface * Eigen::Matrix3d::Identity();
+    if (area > 0)
+        metric += (1 - along_surface) / area * normals;
+    return metric.inverse();
+}
+
+/// The move of unit arrival that is shortest in the metric A: A^-1 g / (g^T A^-1 g).
+Point cheapest_direction(const Eigen::Matrix3d& inverse_metric, const Point& gradient)
+{
+    const Point d = inverse_metric * gradient;
+    return d / gradient.dot(d);
+}
+
+/// The numbers from 0 on by their times, the lower of equal ones first.
+std::vector<int> by_time(const std::vector<double>& times)
+{
+    const int count = static_cast<int>(times.size());
+    const int buckets = 1 + count / 256;
+    const double most = ordered_maximum(count, 0.0, [&](int i) { return std::isinf(times[i]) ? 0 : times[i]; });
+    const auto bucket = [&](int i) {
+        const double place = most > 0 ? times[i] / most * buckets : 0;
+        return static_cast<int>(std::clamp(place, 0.0, buckets - 1.0));
+    };
+    std::vector<int> first(buckets + 1, 0);
+    for (int i = 0; i < count; ++i)
+        ++first[bucket(i) + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<std::pair<double, int>> sorted(count);
+    std::vector<int> next(first.begin(), first.end() - 1);
+    for (int i = 0; i < count; ++i)
+        sorted[next[bucket(i)]++] = {times[i], i};
+    std::vector<int> order(count);
+    for_chunks(buckets, 16, [&](int begin, int end) {
+        for (int b = begin; b < end; ++b)
+            std::sort(sorted.begin() + first[b], sorted.begin() + first[b + 1]);
+        for (int i = first[begin]; i < first[end]; ++i)
+            order[i] = sorted[i].second;
     });
-    return inverse;
+    return order;
 }
 
 class Front {
@@ -47,15 +82,16 @@ public:
           tolerance_(tolerance), now_{cover.points, cover.triangles}, moves_(targets.size(), 0),
           missed_(targets.size(), 0)
     {
-        order_.resize(targets.size());
-        std::iota(order_.begin(), order_.end(), 0);
-        const auto when = [&](int v) { return movable(v) ? targets[v] : arrivals[v].distance; };
-        std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) { return when(a) < when(b); });
+        const int vertices = static_cast<int>(targets.size());
+        std::vector<double> when(vertices);
+        for_each_index(vertices, [&](int v) { when[v] = movable(v) ? targets[v] : arrivals[v].distance; });
+        order_ = by_time(when);
+        place_.resize(vertices);
+        for_each_index(vertices, [&](int i) { place_[order_[i]] = i; });
     }
 
     void predict_and_correct()
     {
-        inverse_metric_ = inverse_metrics(cover_);
         predict();
         constexpr int passes = 2; // the second profits from room that later vertices made
         for (int pass = 0; pass < passes; ++pass)
@@ -100,13 +136,6 @@ private:
         return folds_around(cover_, now_.points, v, position);
     }
 
-    /// The move of unit arrival that is shortest in the vertex' metric: A^-1 g / (g^T A^-1 g).
-    [[nodiscard]] Point cheapest_direction(int v, const Point& gradient) const
-    {
-        const Point d = inverse_metric_[v] * gradient;
-        return d / gradient.dot(d);
-    }
-
     void predict()
     {
         Points move(targets_.size(), Point::Zero());
@@ -114,7 +143,7 @@ private:
             const double way = movable(v) ? targets_[v] - arrivals_[v].distance : 0;
             if (std::abs(way) <= tolerance_)
                 return;
-            move[v] = way * cheapest_direction(v, arrivals_[v].gradient);
+            move[v] = way * cheapest_direction(inverse_metric(cover_, v), arrivals_[v].gradient);
             now_.points[v] += move[v];
             moves_[v] = 1;
         });
@@ -123,20 +152,49 @@ private:
     }
 
     /// Visits the vertices as the front passes them; `place` returns the place of a movable one.
+    ///
+    /// On all cores, each taking some of those that come next, but a vertex waits for all around it that come before.
+    /// So each sees the others as it would were all visited one after the other.
     template <class Place>
     void in_order(const Place& place)
     {
-        known_.assign(targets_.size(), never);
-        for (const int v : order_) {
-            if (!movable(v)) {
-                known_[v] = arrivals_[v].distance;
-                continue;
+        const int vertices = static_cast<int>(targets_.size());
+        known_.assign(vertices, never);
+        std::vector<std::atomic<char>> visited(vertices);
+        for_chunks(vertices, 64, [&](int begin, int end) {
+            for (int i = begin; i < end; ++i) {
+                const int v = order_[i];
+                for_each_before(v, [&](int w) {
+                    while (!visited[w].load(std::memory_order_acquire))
+                        std::this_thread::yield();
+                });
+                visit(v, place);
+                visited[v].store(1, std::memory_order_release);
             }
-            const Candidate best = place(v);
-            now_.points[v] = best.position;
-            known_[v] = best.arrival.distance;
-            missed_[v] = best.miss > tolerance_;
+        });
+    }
+
+    /// `use(w)` for the neighbours that the front passes before `v`.
+    template <class Use>
+    void for_each_before(int v, const Use& use) const
+    {
+        for (const int* f = cover_.around.begin(v); f != cover_.around.end(v); ++f)
+            for (const int w : cover_.triangles[*f])
+                if (place_[w] < place_[v])
+                    use(w);
+    }
+
+    template <class Place>
+    void visit(int v, const Place& place)
+    {
+        if (!movable(v)) {
+            known_[v] = arrivals_[v].distance;
+            return;
         }
+        const Candidate best = place(v);
+        now_.points[v] = best.position;
+        known_[v] = best.arrival.distance;
+        missed_[v] = best.miss > tolerance_;
     }
 
     /// Repeats `step` from `start` until the arrival is right. A step that would fold a face is halved.
@@ -173,10 +231,13 @@ private:
     {
         const Point& old = cover_.points[v];
         const Point predicted = now_.points[v];
+        std::optional<Eigen::Matrix3d> inverse; // few need it
         Candidate best = iterate(v, predicted, 20, [&](const Candidate& here) -> Point {
+            if (!inverse)
+                inverse = inverse_metric(cover_, v);
             const Point& g = here.arrival.gradient;
             const double way = targets_[v] - here.arrival.distance + g.dot(here.position - old);
-            return old + way * cheapest_direction(v, g);
+            return old + way * cheapest_direction(*inverse, g);
         });
         for (const Point& start : {predicted, old}) {
             if (best.miss <= tolerance_)
@@ -198,19 +259,18 @@ private:
     std::vector<double> known_; ///< when the front passed the vertices that it has
     std::vector<int> moves_;
     std::vector<char> missed_;
-    std::vector<int> order_;
-    std::vector<Eigen::Matrix3d> inverse_metric_;
+    std::vector<int> order_; ///< in which the front passes the vertices
+    std::vector<int> place_; ///< of each in that order
 };
 
 } // namespace
 
 std::vector<double> front_mobility(const Cover& cover, const std::vector<Arrival>& arrivals)
 {
-    const std::vector<Eigen::Matrix3d> inverse_metric = inverse_metrics(cover);
     std::vector<double> mobility(arrivals.size());
     for_each_index(static_cast<int>(mobility.size()), [&](int v) {
         const Point& g = arrivals[v].gradient;
-        const double along = along_surface * g.dot(inverse_metric[v] * g);
+        const double along = along_surface * g.dot(inverse_metric(cover, v) * g);
         mobility[v] = along > 0 ? std::min(along, 1.0) : 0; // not a number where faces are needles: such a vertex stays
     });
     return mobility;
