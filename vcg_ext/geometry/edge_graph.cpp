@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "edge_graph.h"
 
+#include "rows.h"
+
 #include <algorithm>
+#include <utility>
 
 namespace vcg_ext {
 
@@ -9,21 +12,17 @@ EdgeGraph edge_graph(const Surface& surface)
 {
     const int vertices = static_cast<int>(surface.points.size());
     const VertexFaces around = vertex_faces(vertices, surface.triangles);
-    EdgeGraph graph;
-    graph.first.reserve(vertices + 1);
-    graph.neighbour.reserve(3 * surface.triangles.size());
-    graph.first.push_back(0);
-    for (int v = 0; v < vertices; ++v) {
+    Rows rows = compressed_rows(vertices, 8, [&](int v, std::vector<int>& neighbours) {
+        const auto begin = static_cast<std::ptrdiff_t>(neighbours.size());
         for (const int* f = around.begin(v); f != around.end(v); ++f)
             for (const int w : surface.triangles[*f])
                 if (w != v)
-                    graph.neighbour.push_back(w);
-        const auto row = graph.neighbour.begin() + graph.first.back();
-        std::sort(row, graph.neighbour.end());
-        graph.neighbour.erase(std::unique(row, graph.neighbour.end()), graph.neighbour.end());
-        graph.first.push_back(static_cast<int>(graph.neighbour.size()));
-    }
-    return graph;
+                    neighbours.push_back(w);
+        const auto row = neighbours.begin() + begin;
+        std::sort(row, neighbours.end());
+        neighbours.erase(std::unique(row, neighbours.end()), neighbours.end());
+    });
+    return {std::move(rows.first), std::move(rows.numbers)};
 }
 
 std::vector<int> within_rings(const EdgeGraph& graph, std::vector<int> vertices, int rings)

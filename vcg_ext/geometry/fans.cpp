@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fans.h"
 
-#include "../base/parallel.h"
+#include "rows.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace vcg_ext {
 
 namespace {
 
-using Edge = std::pair<int, int>; ///< of a face, opposite to the vertex: from, to
+using Opposite = std::pair<int, int>; ///< the edge of a face that is not at the vertex: from, to
 
 /// Appends the fans that the edges chain up to; uses up `edges`.
-void append_fans(std::vector<Edge>& edges, std::vector<int>& neighbours)
+void append_fans(std::vector<Opposite>& edges, std::vector<int>& neighbours)
 {
     constexpr std::size_t many = 32; // the search takes their square: they stay single faces
     const std::size_t count = edges.size();
@@ -26,7 +25,7 @@ void append_fans(std::vector<Edge>& edges, std::vector<int>& neighbours)
         neighbours.push_back(end);
         while (count <= many) {
             const auto found = std::find_if(edges.begin() + static_cast<std::ptrdiff_t>(next), edges.end(),
-                                            [end](const Edge& e) { return e.first == end; });
+                                            [end](const Opposite& e) { return e.first == end; });
             if (found == edges.end())
                 break;
             std::swap(*found, edges[next]);
@@ -40,35 +39,17 @@ void append_fans(std::vector<Edge>& edges, std::vector<int>& neighbours)
 
 Fans fans_of(const VertexFaces& around, const std::vector<Triangle>& triangles)
 {
-    constexpr int chunk = 4096;
-    const int vertices = static_cast<int>(around.first.size()) - 1;
-    Fans fans;
-    fans.first.assign(vertices + 1, 0);
-    std::vector<std::vector<int>> parts(chunk_count(vertices, chunk));
-    for_chunks(vertices, chunk, [&](int begin, int end) {
-        std::vector<int>& part = parts[begin / chunk];
-        part.reserve(8 * (end - begin));
-        std::vector<Edge> edges;
-        for (int v = begin; v < end; ++v) {
-            edges.clear();
-            for (const int* f = around.begin(v); f != around.end(v); ++f) {
-                const Triangle& t = triangles[*f];
-                const int corner = t[0] == v ? 0 : t[1] == v ? 1 : 2;
-                edges.emplace_back(t[(corner + 1) % 3], t[(corner + 2) % 3]);
-            }
-            const std::size_t before = part.size();
-            append_fans(edges, part);
-            fans.first[v + 1] = static_cast<int>(part.size() - before);
+    Rows rows = compressed_rows(static_cast<int>(around.first.size()) - 1, 8, [&](int v, std::vector<int>& neighbours) {
+        thread_local std::vector<Opposite> edges; // keeps its memory
+        edges.clear();
+        for (const int* f = around.begin(v); f != around.end(v); ++f) {
+            const Triangle& t = triangles[*f];
+            const int corner = t[0] == v ? 0 : t[1] == v ? 1 : 2;
+            edges.emplace_back(t[(corner + 1) % 3], t[(corner + 2) % 3]);
         }
+        append_fans(edges, neighbours);
     });
-    std::partial_sum(fans.first.begin(), fans.first.end(), fans.first.begin());
-    fans.neighbour.resize(fans.first.back());
-    for_chunks(vertices, chunk, [&](int begin, int) {
-        std::vector<int>& part = parts[begin / chunk];
-        std::copy(part.begin(), part.end(), fans.neighbour.begin() + fans.first[begin]);
-        part = {};
-    });
-    return fans;
+    return {std::move(rows.first), std::move(rows.numbers)};
 }
 
 } // namespace vcg_ext
