@@ -25,8 +25,7 @@ void set_threads(int count);
 ///
 /// The pieces depend on `count` and `chunk` alone. So a result does not depend on the number of threads where each
 /// element is written by itself, or where each piece makes one partial result (number begin / chunk) and these are
-/// summed in order. Pieces begin in ascending order, so one may wait for what a lower one does. `work` may call
-/// for_chunks() itself.
+/// summed in order. `work` may call for_chunks() itself.
 ///
 /// \throw what `work` threw, of several pieces the lowest's; the others are done nevertheless
 void for_chunks(int count, int chunk, const std::function<void(int begin, int end)>& work);

@@ -5,12 +5,10 @@
 #include "fold_guard.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <thread>
 #include <utility>
 
 namespace vcg_ext {
@@ -86,8 +84,6 @@ public:
         std::vector<double> when(vertices);
         for_each_index(vertices, [&](int v) { when[v] = movable(v) ? targets[v] : arrivals[v].distance; });
         order_ = by_time(when);
-        place_.resize(vertices);
-        for_each_index(vertices, [&](int i) { place_[order_[i]] = i; });
     }
 
     void predict_and_correct()
@@ -152,36 +148,12 @@ private:
     }
 
     /// Visits the vertices as the front passes them; `place` returns the place of a movable one.
-    ///
-    /// On all cores, each taking some of those that come next, but a vertex waits for all around it that come before.
-    /// So each sees the others as it would were all visited one after the other.
     template <class Place>
     void in_order(const Place& place)
     {
-        const int vertices = static_cast<int>(targets_.size());
-        known_.assign(vertices, never);
-        std::vector<std::atomic<char>> visited(vertices);
-        for_chunks(vertices, 64, [&](int begin, int end) {
-            for (int i = begin; i < end; ++i) {
-                const int v = order_[i];
-                for_each_before(v, [&](int w) {
-                    while (!visited[w].load(std::memory_order_acquire))
-                        std::this_thread::yield();
-                });
-                visit(v, place);
-                visited[v].store(1, std::memory_order_release);
-            }
-        });
-    }
-
-    /// `use(w)` for the neighbours that the front passes before `v`.
-    template <class Use>
-    void for_each_before(int v, const Use& use) const
-    {
-        for (const int* f = cover_.around.begin(v); f != cover_.around.end(v); ++f)
-            for (const int w : cover_.triangles[*f])
-                if (place_[w] < place_[v])
-                    use(w);
+        known_.assign(targets_.size(), never);
+        for (const int v : order_)
+            visit(v, place);
     }
 
     template <class Place>
@@ -260,7 +232,6 @@ private:
     std::vector<int> moves_;
     std::vector<char> missed_;
     std::vector<int> order_; ///< in which the front passes the vertices
-    std::vector<int> place_; ///< of each in that order
 };
 
 } // namespace
