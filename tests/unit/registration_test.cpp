@@ -4,6 +4,7 @@
 #include "support/load.h"
 #include "support/shapes.h"
 #include "vcg_ext/attack/affine.h"
+#include "vcg_ext/attack/attack.h"
 #include "vcg_ext/attack/crop.h"
 #include "vcg_ext/geometry/icp.h"
 #include "vcg_ext/key/random.h"
@@ -105,6 +106,20 @@ TEST(Registration, FindsAMirrorImage)
     EXPECT_TRUE(found.mirrored());
     EXPECT_TRUE(found.inside_out); // coordinates alone were mirrored, so its faces look in
     EXPECT_LT(error_of(found.affine, turned, original), 1e-7);
+}
+
+TEST(Registration, FindsAStretchedCopyThatNoSimilarityCovers)
+{
+    const Surface original = load("armadillo.off");
+    for (const std::uint64_t seed : {1, 2}) {
+        Surface copy = original;
+        AttackOptions affine{Attack::Affine, 0.05};
+        affine.seed = seed;
+        (void)apply_attack(copy, affine);
+        const Registration found = registered(copy, original);
+        ASSERT_TRUE(found.found) << seed << ": " << found.overlap;
+        EXPECT_LT(error_of(found.affine, copy, original), 1e-6) << seed;
+    }
 }
 
 TEST(Registration, FindsAnAffineMapWithTwelveUnknownsOnly)

@@ -195,6 +195,22 @@ bool is_near(const Eigen::Affine3d& affine, const Eigen::Affine3d& pose)
     return sizes[0] < most && sizes[2] * most > 1;
 }
 
+/// A pose that fits but for some places, where twelve unknowns make it fit: no similarity lays a stretched copy on all
+/// of its original.
+Scored stretched(const FootSearch& original, double size, const SurfaceSamples& samples, const Scored& found)
+{
+    constexpr double less = 0.9; // overlap
+    if (found.fits() || found.score >= 2 * accepted || found.overlap < less)
+        return found;
+    IcpOptions options = coarse(size);
+    options.affine = true;
+    Eigen::Affine3d pose = found.pose;
+    if (!refine_pose(original, samples, samples_to_judge, options, pose) || !is_near(pose, found.pose))
+        return found;
+    const Scored other = scored(original, size, samples.points, samples_to_judge, {found.by, pose});
+    return other.fits() ? other : found;
+}
+
 } // namespace
 
 double Registration::scale() const
@@ -280,6 +296,7 @@ Registration Registrar::operator()(const Surface& surface, const Progress& progr
     Registration result;
     if (found.empty())
         return result;
+    found.front() = stretched(original_, size_, samples, found.front());
     if (!found.front().fits()) {
         result.pose = result.affine = found.front().pose;
         result.by = found.front().by;
