@@ -85,7 +85,9 @@ Piece fast_marching(const Surface& surface)
 {
     const VertexFaces around = around_of(surface);
     const SurfacePoint source{*around.begin(0), surface.points[0]};
-    return repeated([&surface, around, source] { return march(surface, around, source); });
+    return repeated([&surface, fans = fans_of(around, surface.triangles), source] {
+        return distances_from(source, surface.points, surface.triangles, fans);
+    });
 }
 
 Piece wave_sums(const Surface& surface)

@@ -163,6 +163,18 @@ TEST(WithOriginal, FindsThePartThatIsACopy)
     EXPECT_EQ(copies, 1);
 }
 
+TEST(WithOriginal, IsNoWorseThanTheKeyAlone)
+{
+    Surface suspect = marked_fandisk();
+    attack(suspect, Attack::Simplify, 0.95);
+    const DetectReport alone = detect(suspect, key(), asking(Method::Waves));
+    const DetectReport found = detect_with_original(suspect, fandisk(), key(), asking(Method::Waves));
+    EXPECT_LT(*alone.p_value, 1e-6);
+    EXPECT_LE(*found.p_value, 5.001 * *alone.p_value);
+    EXPECT_EQ(found.verdict.substr(0, 17), "by the key alone:") << found.verdict;
+    EXPECT_TRUE(found.registration && found.registration->found);
+}
+
 TEST(WithOriginal, RefusesAnOriginalThatIsMarked)
 {
     Surface suspect = fandisk();

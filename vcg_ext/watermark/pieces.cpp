@@ -19,11 +19,6 @@ bool was_read(const DetectReport& report)
     return !report.registration || report.registration->found;
 }
 
-double loudness(const DetectReport& report)
-{
-    return std::min(report.p_value.value_or(1), report.p_message);
-}
-
 PartReport told(const Part& piece, const DetectReport& found)
 {
     PartReport report;
@@ -64,7 +59,7 @@ void look_at_pieces(const PieceReader& read, const std::vector<Part>& pieces, De
             continue;
         }
         reports.push_back(told(piece, found));
-        if (!was_read(found) || (was_read(result) && loudness(found) >= loudness(result)))
+        if (!was_read(found) || (was_read(result) && best_p(found) >= best_p(result)))
             continue;
         found.verdict = "part " + std::to_string(i + 1) + " of " + std::to_string(count) + " (" +
                         percent(piece.area_share) + " of the area): " + found.verdict;

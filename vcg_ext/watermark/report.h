@@ -3,6 +3,7 @@
 #include "../method/marking.h"
 #include "../payload/message.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -119,5 +120,11 @@ struct DetectReport {
     /// and empty where there is none, or where a piece of the mesh was read.
     std::vector<int> carrier_of_vertex;
 };
+
+/// The smaller one of what it says of the expected message and of any.
+[[nodiscard]] inline double best_p(const DetectReport& report)
+{
+    return std::min(report.p_value.value_or(1), report.p_message);
+}
 
 } // namespace vcg_ext
