@@ -60,6 +60,6 @@ def run(listed: list[Block], folder: Path) -> list[str]:
             script.append(block.text)
     done = subprocess.run(
         ["bash", "-euo", "pipefail", "-c", "\n".join(script)], cwd=folder, env={**os.environ, "NO_COLOR": "1"},
-        text=True, stdout=subprocess.PIPE, check=True,
+        encoding="utf-8", stdout=subprocess.PIPE, check=True,
     )  # fmt: skip
     return done.stdout.split(f"{MARK}\n")[1:]
