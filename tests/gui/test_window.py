@@ -69,7 +69,7 @@ class Window:
         def rests() -> bool:
             if has_it() and has_it():
                 return True
-            xdotool("windowactivate", window)
+            xdotool("windowactivate", window, "windowfocus", window)  # openbox may think that it has it already
             return False
 
         wait_for("the focus", rests)
