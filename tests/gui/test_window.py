@@ -51,7 +51,7 @@ class Window:
                 stderr=subprocess.STDOUT,
             )
         wait_for("the mesh", lambda: "All files opened" in self.log())
-        self.main = wait_for("the window", lambda: self.find("^MeshLab 20"))
+        wait_for("the window", lambda: self.find("^MeshLab 20"))
 
     def log(self) -> str:
         return self.log_path.read_text(encoding="utf-8", errors="replace")
@@ -59,20 +59,21 @@ class Window:
     def find(self, title: str) -> str:
         return xdotool("search", "--onlyvisible", "--name", title)
 
-    def focus(self, window: str) -> None:
-        """Gives it the keys, for good: as a dialog closes, MeshLab and the window manager each move the focus too."""
+    def focus(self, title: str) -> None:
+        """Gives a window the keys, for good: as a dialog closes, others vanish for a moment and the focus moves."""
 
         def has_it() -> bool:
             time.sleep(0.2)
-            return xdotool("getwindowfocus") == window
+            return xdotool("getwindowfocus") in self.find(title).split()
 
         def rests() -> bool:
             if has_it() and has_it():
                 return True
-            xdotool("windowactivate", window, "windowfocus", window)  # openbox may think that it has it already
+            for window in self.find(title).split():
+                xdotool("windowactivate", window, "windowfocus", window)
             return False
 
-        wait_for("the focus", rests)
+        wait_for(f"the focus on {title}", rests)
 
     def windows(self) -> set[str]:
         return set(xdotool("search", "--onlyvisible", "--pid", str(self.program.pid)).split())
@@ -85,7 +86,7 @@ class Window:
     def open_dialog(self, filter_name: str) -> None:
         """Ctrl+F, the filter's name, and the first that is offered."""
         before = self.windows()
-        self.focus(self.main)
+        self.focus("^MeshLab 20")
         xdotool("key", "ctrl+f")
         search = wait_for("the search box", lambda: self.windows() - before).pop()
         xdotool("type", "--delay", "20", filter_name)
@@ -98,7 +99,7 @@ class Window:
         self.picture("search")
         xdotool("key", "Down")
         xdotool("key", "Return")
-        self.focus(wait_for("the dialog", lambda: self.find(f"^{filter_name}$")))
+        self.focus(f"^{filter_name}$")
 
     def fill(self, filter_name: str, values: dict[str, str]) -> None:
         """Goes through the fields with Tab, from the dialog's title buttons to Apply."""
@@ -113,14 +114,14 @@ class Window:
         xdotool("key", "Tab")
         if "Report" in values:
             self.choose_file(values["Report"])
-            self.focus(self.find(f"^{filter_name}$"))
+            self.focus(f"^{filter_name}$")
         xdotool("key", "Tab", "Tab", "Tab")
         self.picture("filled")
 
     def choose_file(self, path: str) -> None:
         """By the button beside the field: MeshLab 2020.09 does not take what is typed into the field."""
         xdotool("key", "space")
-        self.focus(wait_for("the file dialog", lambda: self.find("^Save$")))
+        self.focus("^Save$")
         xdotool("type", "--delay", "5", path)
         xdotool("key", "Return")
         wait_for("the file dialog to close", lambda: not self.find("^Save$"))
@@ -129,7 +130,7 @@ class Window:
         xdotool("key", "space")
 
     def close_dialog(self, filter_name: str) -> None:
-        self.focus(self.find(f"^{filter_name}$"))
+        self.focus(f"^{filter_name}$")
         xdotool("key", "shift+Tab", "space")
         wait_for("the dialog to close", lambda: not self.find(f"^{filter_name}$"))
 
