@@ -12,7 +12,7 @@ EdgeGraph edge_graph(const Surface& surface)
 {
     const int vertices = static_cast<int>(surface.points.size());
     const VertexFaces around = vertex_faces(vertices, surface.triangles);
-    Rows rows = compressed_rows(vertices, 8, [&](int v, std::vector<int>& neighbours) {
+    CompressedRows rows = compressed_rows(vertices, 8, [&](int v, std::vector<int>& neighbours) {
         const auto begin = static_cast<std::ptrdiff_t>(neighbours.size());
         for (const int* f = around.begin(v); f != around.end(v); ++f)
             for (const int w : surface.triangles[*f])

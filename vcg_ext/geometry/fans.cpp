@@ -39,16 +39,17 @@ void append_fans(std::vector<Opposite>& edges, std::vector<int>& neighbours)
 
 Fans fans_of(const VertexFaces& around, const std::vector<Triangle>& triangles)
 {
-    Rows rows = compressed_rows(static_cast<int>(around.first.size()) - 1, 8, [&](int v, std::vector<int>& neighbours) {
-        thread_local std::vector<Opposite> edges; // keeps its memory
-        edges.clear();
-        for (const int* f = around.begin(v); f != around.end(v); ++f) {
-            const Triangle& t = triangles[*f];
-            const int corner = t[0] == v ? 0 : t[1] == v ? 1 : 2;
-            edges.emplace_back(t[(corner + 1) % 3], t[(corner + 2) % 3]);
-        }
-        append_fans(edges, neighbours);
-    });
+    CompressedRows rows =
+        compressed_rows(static_cast<int>(around.first.size()) - 1, 8, [&](int v, std::vector<int>& neighbours) {
+            thread_local std::vector<Opposite> edges; // keeps its memory
+            edges.clear();
+            for (const int* f = around.begin(v); f != around.end(v); ++f) {
+                const Triangle& t = triangles[*f];
+                const int corner = t[0] == v ? 0 : t[1] == v ? 1 : 2;
+                edges.emplace_back(t[(corner + 1) % 3], t[(corner + 2) % 3]);
+            }
+            append_fans(edges, neighbours);
+        });
     return {std::move(rows.first), std::move(rows.numbers)};
 }
 

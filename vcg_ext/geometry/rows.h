@@ -10,7 +10,7 @@
 namespace vcg_ext {
 
 /// Rows of numbers, one behind the other: row `i` is `numbers[first[i]] .. numbers[first[i + 1] - 1]`.
-struct Rows {
+struct CompressedRows {
     std::vector<int> first; ///< one more than there are rows
     std::vector<int> numbers;
 };
@@ -18,11 +18,11 @@ struct Rows {
 /// \param usual  how long a row is, rather more than less
 /// \param append `append(i, numbers)`: puts row i behind what stands there; on several threads
 template <class Append>
-[[nodiscard]] Rows compressed_rows(int count, int usual, const Append& append)
+[[nodiscard]] CompressedRows compressed_rows(int count, int usual, const Append& append)
 {
     constexpr int chunk = 4096;
     constexpr int stretch = 32 * chunk; // at a time, so that they need little memory of their own
-    Rows rows;
+    CompressedRows rows;
     rows.first.assign(count + 1, 0);
     rows.numbers.reserve(static_cast<std::size_t>(usual) * count);
     std::vector<std::vector<int>> parts(stretch / chunk);

@@ -42,7 +42,7 @@ struct FrontPlacement {
 ///
 /// No face turns by more than 60 degrees (folded()).
 ///
-/// \param arrivals  march() on the cover
+/// \param arrivals  arrivals_of() the distances on the cover
 /// \param targets   one a vertex; NaN: it must not move. None for the corners of the source's face, as nothing comes
 ///                  before
 /// \param tolerance of the distances

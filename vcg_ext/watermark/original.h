@@ -11,7 +11,8 @@ namespace vcg_ext {
 /// may be. It is laid on the original first, by shape alone; then the carriers are read where the original has them,
 /// and Waves from the field by which the surface lies off it. What is not there is no evidence either way.
 ///
-/// Where the surface is no copy of this original, the verdict says so, with the figures, and nothing is read.
+/// Where that says nothing of a copy, the key alone is tried, for a fifth of the doubt, and the verdict says so. Where
+/// the surface is no copy of this original, the verdict says so, with the figures, and nothing is read.
 ///
 /// \throw Error as detect(); where the original carries a mark of this key itself, so that what is found would prove
 ///              nothing
