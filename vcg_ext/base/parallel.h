@@ -36,6 +36,13 @@ void for_chunks(int count, int chunk, const std::function<void(int begin, int en
 void for_chunks(int count, int chunk, const Progress& progress, const char* phase,
                 const std::function<void(int begin, int end)>& work);
 
+/// Both, at the same time where there are cores for it.
+template <class First, class Second>
+void side_by_side(const First& first, const Second& second)
+{
+    for_chunks(2, 1, [&](int begin, int /*end*/) { begin == 0 ? first() : second(); });
+}
+
 /// for_chunks() element by element.
 template <class Work>
 void for_each_index(int count, const Work& work)

@@ -73,7 +73,7 @@ ClosestSearch::ClosestSearch(const Surface& surface) : tree_(std::make_unique<Tr
             tree_->mesh.face[f].N() = {0, 0, 0};
 
     // vcglib's own depth of 64 takes all memory where more faces than a leaf holds meet in one point.
-    constexpr int leaf = 8;
+    constexpr int leaf = 16;
     const double leaves = static_cast<double>(surface.triangles.size()) / leaf;
     const int depth = std::clamp(static_cast<int>(std::ceil(std::log2(leaves))) + 4, 1, 22);
     tree_->tree.emplace(tree_->mesh, leaf, depth);

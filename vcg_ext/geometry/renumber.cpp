@@ -26,9 +26,8 @@ std::vector<Triangle> by_first_corner(const std::vector<Triangle>& triangles, in
 
 } // namespace
 
-void renumber(Body& body, const std::vector<int>& order)
+void renumber(Surface& surface, std::vector<int>& site_of_vertex, const std::vector<int>& order)
 {
-    Surface& surface = body.surface;
     const int sites = static_cast<int>(surface.points.size());
     std::vector<int> number(sites);
     Points points(sites);
@@ -42,7 +41,7 @@ void renumber(Body& body, const std::vector<int>& order)
             v = number[v];
     });
     surface.triangles = by_first_corner(surface.triangles, sites);
-    for (int& site : body.site_of_vertex)
+    for (int& site : site_of_vertex)
         if (site >= 0)
             site = number[site];
 }

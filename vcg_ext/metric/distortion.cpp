@@ -6,7 +6,9 @@
 #include "../base/weld.h"
 #include "../geometry/boundary.h"
 #include "../geometry/closest.h"
+#include "../geometry/curve.h"
 #include "../geometry/moments.h"
+#include "../geometry/renumber.h"
 #include "../geometry/sampling.h"
 #include "../geometry/size.h"
 #include "../key/random.h"
@@ -46,7 +48,7 @@ Points corresponding_sites(const Surface& measured, const Welded& reference)
     return sites;
 }
 
-Pair make_pair_of(const Surface& reference, const Surface& measured)
+Pair pair_of(const Surface& reference, const Surface& measured)
 {
     Welded first = weld(reference);
     if (reference.points.size() == measured.points.size() && reference.triangles == measured.triangles) {
@@ -58,20 +60,27 @@ Pair make_pair_of(const Surface& reference, const Surface& measured)
     return {std::move(first.surface), std::move(second.surface), std::move(second.site_of_vertex), false};
 }
 
+/// What is looked for in turn is near each other then, and so is what the search walks through.
+void number_by_curve(Pair& pair)
+{
+    const std::vector<int> order = curve_order(pair.reference.points);
+    std::vector<int> vertices_of_reference;
+    renumber(pair.reference, vertices_of_reference, order);
+    renumber(pair.measured, pair.site_of_vertex, pair.same_faces ? order : curve_order(pair.measured.points));
+}
+
 struct OneWay {
     double squares = 0;
     double sum = 0;
     double most = 0;
 };
 
-/// Distances of samples of `from` to `to`. Where both have the same faces, a point is no further than its counterpart:
-/// that tells the search where to stop.
+/// Distances of samples of `from` to `to`. Where both have the same faces, a point is no further than its counterpart.
 OneWay sampled(const Surface& from, const Surface& to, const ClosestSearch& nearest, bool same_faces, int samples,
                std::uint64_t seed, const char* purpose, const Progress& progress, const char* phase)
 {
     constexpr int chunk = 4096;
     const Sampling sampling(from, samples);
-    const double slack = 1e-12 * bounding_diagonal(to);
     std::vector<OneWay> partial(chunk_count(samples, chunk));
     for_chunks(samples, chunk, progress, phase, [&](int begin, int end) {
         Stream draws = seeded_stream(seed, purpose, begin / chunk);
@@ -79,12 +88,9 @@ OneWay sampled(const Surface& from, const Surface& to, const ClosestSearch& near
         for (int i = begin; i < end; ++i) {
             const Sampling::Place place = sampling.place(i, draws);
             const Point p = sampling.point(place);
-            double distance = 0;
-            if (same_faces) {
-                const double bound = (weighted_point(to, place.face, place.weights) - p).norm();
-                distance = std::min(bound, nearest(p, 1.000001 * bound + slack).distance);
-            } else
-                distance = nearest(p).distance;
+            double distance = nearest(p).distance;
+            if (same_faces)
+                distance = std::min(distance, (weighted_point(to, place.face, place.weights) - p).norm());
             part.squares += distance * distance;
             part.sum += distance;
             part.most = std::max(part.most, distance);
@@ -163,10 +169,13 @@ DistortionReport measure(const Surface& reference, const Surface& measured, cons
     check_surface(reference, "reference mesh");
     check_surface(measured, "measured mesh");
     report(progress, 0, "Search trees");
-    const Pair pair = make_pair_of(reference, measured);
-    const ClosestSearch to_reference(pair.reference);
+    Pair pair = pair_of(reference, measured);
+    number_by_curve(pair);
+    std::optional<ClosestSearch> trees[2];
+    side_by_side([&] { trees[0].emplace(pair.reference); }, [&] { trees[1].emplace(pair.measured); });
+    const ClosestSearch& to_reference = *trees[0];
+    const ClosestSearch& to_measured = *trees[1];
     report(progress, 3, "Search trees");
-    const ClosestSearch to_measured(pair.measured);
 
     DistortionReport result;
     const std::size_t larger = std::max(pair.reference.points.size(), pair.measured.points.size());
