@@ -19,7 +19,8 @@ QString info()
            "<i>p_value</i> and <i>p_message</i> are true upper bounds, as those of Detect. Method, Statistic and Trim must be "
            "those of embedding. Waves and Layered survive the most. A <b>Certificate</b>, which Embed writes on demand, takes "
            "the original's place where nothing was smoothed; <b>Original</b> is then passed over. Layers are taken without their "
-           "matrices, unless these stretch them; both stay as they are.<br>" +
+           "matrices, unless these stretch them; both stay as they are. Where a copy says nothing in the original's place, the key "
+           "alone is tried too.<br>" +
            about_carrier_parameters();
 }
 

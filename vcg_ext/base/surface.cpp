@@ -4,6 +4,7 @@
 #include "parallel.h"
 
 #include <numeric>
+#include <utility>
 
 namespace vcg_ext {
 
@@ -21,6 +22,12 @@ VertexFaces vertex_faces(int vertices, const std::vector<Triangle>& triangles)
         for (const int v : triangles[f])
             around.face[next[v]++] = static_cast<int>(f);
     return around;
+}
+
+void turn_round(Surface& surface)
+{
+    for (Triangle& t : surface.triangles)
+        std::swap(t[1], t[2]);
 }
 
 Eigen::AlignedBox3d bounding_box(const Points& points)

@@ -33,6 +33,9 @@ struct VertexFaces {
 
 [[nodiscard]] VertexFaces vertex_faces(int vertices, const std::vector<Triangle>& triangles);
 
+/// Turns all faces to look the other way.
+void turn_round(Surface& surface);
+
 /// Twice the area times the unit normal of a triangle.
 [[nodiscard]] inline Point scaled_normal(const Points& points, const Triangle& t)
 {

@@ -226,8 +226,7 @@ Impression impression_of(const Surface& surface, int count)
     result = as_stored(result); // what follows is about the points as they are stored
     Surface out = surface;
     if (outward < 0)
-        for (Triangle& t : out.triangles)
-            std::swap(t[1], t[2]);
+        turn_round(out);
     result.means = local_means(result.points, result.normals, mean_radius * result.likeness.size(), out);
     return as_stored(result);
 }

@@ -3,7 +3,6 @@
 
 #include "../base/parallel.h"
 
-#include <utility>
 
 namespace vcg_ext {
 
@@ -12,12 +11,6 @@ namespace {
 /// are needed would follow the noise.
 constexpr double stretched = 1.1;
 } // namespace
-
-void turn_round(Surface& surface)
-{
-    for (Triangle& t : surface.triangles)
-        std::swap(t[1], t[2]);
-}
 
 Surface laid_by(const Eigen::Affine3d& pose, const Surface& surface, const Registration& registration)
 {

@@ -37,9 +37,6 @@ private:
     mutable std::optional<std::vector<char>> left_;
 };
 
-/// Turns all faces to look the other way.
-void turn_round(Surface& surface);
-
 /// A copy laid on its original: in the original's place, at its size, its faces looking the same way.
 [[nodiscard]] Surface laid_on_original(const Surface& surface, const Registration& registration);
 
