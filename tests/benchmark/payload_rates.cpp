@@ -8,8 +8,8 @@
 // mark of that length would have met.
 // Usage: payload_rates [METHOD] [CARRIERS] [KEYS] [mesh.off]
 
+#include "rows.h"
 #include "support/load.h"
-#include "vcg_ext/attack/attack.h"
 #include "vcg_ext/key/random.h"
 #include "vcg_ext/method/methods.h"
 #include "vcg_ext/payload/code.h"
@@ -25,18 +25,10 @@ using namespace vcg_ext;
 
 namespace {
 
-struct Row {
-    const char* label;
-    AttackOptions attack;
-};
-
 const std::vector<Row>& rows()
 {
-    static const std::vector<Row> all = {{"noise .1 %", {Attack::Noise, 0.001}},
-                                         {"noise .3 %", {Attack::Noise, 0.003}},
-                                         {"quantization 8", {Attack::Quantize, 8}},
-                                         {"simplification 50 %", {Attack::Simplify, 0.5}},
-                                         {"remeshing x1", {Attack::Remesh, 1, 3}}};
+    static const std::vector<Row> all =
+        blind_rows({"noise .1 %", "noise .3 %", "quantization 8", "simplification 50 %", "remeshing x1"});
     return all;
 }
 
@@ -106,7 +98,7 @@ int longest(const std::vector<std::vector<double>>& channels, int carriers, cons
 
 void table(const MethodRow& method, int carriers, int keys, const Surface& cover)
 {
-    std::map<const char*, std::vector<std::vector<double>>> channels;
+    std::map<std::string, std::vector<std::vector<double>>> channels;
     for (int number = 0; number < keys; ++number) {
         const Key key("payload " + std::to_string(number));
         Stream stream = seeded_stream(number, "payload-rates");
@@ -118,9 +110,7 @@ void table(const MethodRow& method, int carriers, int keys, const Surface& cover
         const EmbedReport made = embed(stego, key, options);
         for (const Row& row : rows()) {
             Surface suspect = stego;
-            AttackOptions attack = row.attack;
-            attack.seed = number;
-            apply_attack(suspect, attack);
+            spoil(suspect, row, number);
             channels[row.label].push_back(channel(detect(suspect, key, {options.carriers, {}}), made.bits));
         }
     }
@@ -129,7 +119,7 @@ void table(const MethodRow& method, int carriers, int keys, const Surface& cover
         const auto coded = [&](const std::vector<double>& rightness, int bits) {
             return bits + 20 <= carriers && coded_reads(rightness, bits, stream);
         };
-        std::printf("%-9s %4d carriers  %-20s coded %4d  repeated %4d\n", method.name, carriers, row.label,
+        std::printf("%-9s %4d carriers  %-20s coded %4d  repeated %4d\n", method.name, carriers, row.label.c_str(),
                     longest(channels[row.label], carriers, coded),
                     longest(channels[row.label], carriers, repetition_reads));
     }

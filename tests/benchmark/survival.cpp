@@ -2,8 +2,8 @@
 // What detect() says after each attack: log10 of p_value, p_message and presence, and the verdict.
 // Usage: survival METHOD [--bits 0] [--strength 0] [--message TEXT] [--keys 1] [--row TEXT] [mesh.off ...]
 
+#include "rows.h"
 #include "support/load.h"
-#include "vcg_ext/attack/attack.h"
 #include "vcg_ext/method/methods.h"
 #include "vcg_ext/metric/distortion.h"
 #include "vcg_ext/watermark/watermark.h"
@@ -11,56 +11,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 
 using namespace vcg_ext;
 
 namespace {
-
-struct Row {
-    const char* label;
-    AttackOptions attack;
-    bool mirror = false;
-};
-
-const std::vector<Row>& rows()
-{
-    static const std::vector<Row> all = {
-        {"none", {Attack::Reorder}},
-        {"similarity", {Attack::Similarity}},
-        {"mirrored", {}, true},
-        {"noise .1 %", {Attack::Noise, 0.001}},
-        {"noise .3 %", {Attack::Noise, 0.003}},
-        {"noise .5 %", {Attack::Noise, 0.005}},
-        {"quantization 9", {Attack::Quantize, 9}},
-        {"quantization 8", {Attack::Quantize, 8}},
-        {"quantization 7", {Attack::Quantize, 7}},
-        {"simplification 50 %", {Attack::Simplify, 0.5}},
-        {"simplification 75 %", {Attack::Simplify, 0.75}},
-        {"simplification 90 %", {Attack::Simplify, 0.9}},
-        {"subdivision", {Attack::Subdivide}},
-        {"remeshing x1", {Attack::Remesh, 1, 3}},
-        {"remeshing x2", {Attack::Remesh, 2, 3}},
-        {"resampling 50 %", {Attack::Resample, 0.5}},
-        {"isosurface .5 %", {Attack::Isosurface, 0.005}},
-        {"isosurface 1 %", {Attack::Isosurface, 0.01}},
-        {"smoothing .5 x 5", {Attack::Smooth, 0.5, 5}},
-        {"smoothing .5 x 10", {Attack::Smooth, 0.5, 10}},
-    };
-    return all;
-}
-
-void spoil(Surface& surface, const Row& row, std::uint64_t seed)
-{
-    if (row.mirror) {
-        for (Point& p : surface.points)
-            p.x() = -p.x();
-        return;
-    }
-    AttackOptions attack = row.attack;
-    attack.seed = seed;
-    (void)apply_attack(surface, attack);
-}
 
 double log10_of(const std::optional<double>& p)
 {
@@ -83,18 +37,18 @@ void table(const std::string& mesh, const EmbedOptions& options, int number, con
     std::printf("; %.2f s and %.2f s for the check\n", made.seconds.at("placement"), made.seconds.at("check"));
     for (const std::string& warning : made.warnings)
         std::printf("  (%s)\n", warning.c_str());
-    for (const Row& row : rows()) {
-        if (!std::strstr(row.label, only))
+    for (const Row& row : blind_rows()) {
+        if (row.label.find(only) == std::string::npos)
             continue;
         Surface suspect = stego;
         try {
             spoil(suspect, row, static_cast<std::uint64_t>(number));
             const DetectReport found = detect(suspect, key, {options.carriers, {options.message}});
-            std::printf("  %-20s p %7.1f  key alone %7.1f  presence %7.1f  %5.2f s  %s\n", row.label,
+            std::printf("  %-20s p %7.1f  key alone %7.1f  presence %7.1f  %5.2f s  %s\n", row.label.c_str(),
                         log10_of(found.p_value), log10_of(found.p_message), log10_of(found.presence),
                         found.seconds.at("detection"), found.verdict.c_str());
         } catch (const Error& error) {
-            std::printf("  %-20s %s\n", row.label, error.what());
+            std::printf("  %-20s %s\n", row.label.c_str(), error.what());
         }
         std::fflush(stdout);
     }

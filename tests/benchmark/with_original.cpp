@@ -4,25 +4,18 @@
 // Usage: with_original METHOD [--strength 0] [--message TEXT] [--keys 1] [--first-key 1] [--row TEXT] [--unmarked]
 //                      [--wrong-key] [--certificate] [mesh.off ...]
 
+#include "rows.h"
 #include "support/load.h"
-#include "vcg_ext/attack/attack.h"
 #include "vcg_ext/method/methods.h"
 #include "vcg_ext/watermark/watermark.h"
 
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 
 using namespace vcg_ext;
 
 namespace {
-
-struct Row {
-    const char* label;
-    std::vector<AttackOptions> attacks;
-    bool mirror = false;
-};
 
 const std::vector<Row>& rows()
 {
@@ -51,21 +44,10 @@ const std::vector<Row>& rows()
         {"remeshing x2", {{Attack::Remesh, 2, 3}}},
         {"affine 2 %", {{Attack::Affine, 0.02}}},
         {"affine 5 %", {{Attack::Affine, 0.05}}},
-        {"mirrored, similarity", {similarity}, true},
+        {"mirrored, similarity", {{Attack::Mirror}, similarity}},
         {"isosurface 1 %, crop 30 %, similarity", {{Attack::Isosurface, 0.01}, {Attack::Crop, 0.3}, similarity}},
     };
     return all;
-}
-
-void spoil(Surface& surface, const Row& row, std::uint64_t seed)
-{
-    if (row.mirror)
-        for (Point& p : surface.points)
-            p.x() = -p.x();
-    for (AttackOptions attack : row.attacks) {
-        attack.seed = seed;
-        (void)apply_attack(surface, attack);
-    }
 }
 
 struct Settings {
@@ -93,7 +75,7 @@ void table(const std::string& mesh, const Settings& settings, int number)
     }
     std::printf("\n");
     for (const Row& row : rows()) {
-        if (!std::strstr(row.label, settings.only))
+        if (row.label.find(settings.only) == std::string::npos)
             continue;
         Surface suspect = settings.unmarked ? original : stego;
         try {
@@ -106,12 +88,12 @@ void table(const std::string& mesh, const Settings& settings, int number)
                                            : detect_with_original(suspect, original, tried, options);
             const RegistrationReport& pose = *found.registration;
             std::printf("  %-38s %.3f p %6.1f message %6.1f  %s overlap %.2f residual %.1e rounds %d  %.2f + %.2f s\n",
-                        row.label, found.detection_ratio.value_or(0), std::log10(found.p_value.value_or(1)),
+                        row.label.c_str(), found.detection_ratio.value_or(0), std::log10(found.p_value.value_or(1)),
                         std::log10(found.p_message), pose.by.c_str(), pose.overlap, pose.residual,
                         found.smoothing_rounds.value_or(0), found.seconds.at("registration"),
                         found.seconds.at("detection"));
         } catch (const Error& error) {
-            std::printf("  %-38s %s\n", row.label, error.what());
+            std::printf("  %-38s %s\n", row.label.c_str(), error.what());
         }
         std::fflush(stdout);
     }

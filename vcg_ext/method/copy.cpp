@@ -3,7 +3,6 @@
 
 #include "../base/parallel.h"
 
-
 namespace vcg_ext {
 
 namespace {
