@@ -68,6 +68,22 @@ public:
         return true;
     }
 
+    /// The step from Cho's point to where the residuals would be the least if they were linear, which they nearly are;
+    /// none where it leads so far that they are not.
+    [[nodiscard]] Eigen::Vector2d linear_minimum() const
+    {
+        const auto jacobian = factor_.rightCols<2>();
+        const Eigen::Matrix2d square = jacobian.transpose().lazyProduct(jacobian);
+        const Eigen::Vector2d fall = -sign_ * jacobian.transpose().lazyProduct(factor_.col(0));
+        const double determinant = square(0, 0) * square(1, 1) - square(0, 1) * square(0, 1);
+        const Eigen::Vector2d angles(square(1, 1) * fall[0] - square(0, 1) * fall[1],
+                                     square(0, 0) * fall[1] - square(0, 1) * fall[0]);
+        constexpr double far = 0.1; // radians
+        if (!(step_ * angles.norm() < far * norm_ * determinant))
+            return Eigen::Vector2d::Zero();
+        return angles / determinant;
+    }
+
     [[nodiscard]] Point point(const Eigen::Vector2d& angles) const
     {
         const Angle phi(step_ / norm_ * angles[0]);
@@ -103,9 +119,18 @@ Eigen::Matrix3d sphere_energy(const Cover& cover, const Points& current, int v, 
 
 Eigen::Matrix3d sphere_energy(const Cover& cover, int v, const SphereWeights& weights)
 {
-    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-    for (const int* f = cover.around.begin(v); f != cover.around.end(v); ++f)
-        sum += cover.normals[*f] * cover.normals[*f].transpose();
+    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0; // of the sum of n n^T
+    for (const int* f = cover.around.begin(v); f != cover.around.end(v); ++f) {
+        const Point& n = cover.normals[*f];
+        xx += n[0] * n[0];
+        xy += n[0] * n[1];
+        xz += n[0] * n[2];
+        yy += n[1] * n[1];
+        yz += n[1] * n[2];
+        zz += n[2] * n[2];
+    }
+    Eigen::Matrix3d sum;
+    sum << xx, xy, xz, xy, yy, yz, xz, yz, zz;
     return (weights[0] + weights[1]) * sum + weights[2] * Eigen::Matrix3d::Identity();
 }
 
@@ -118,9 +143,9 @@ SphereSolution place_on_sphere(const Point& v, const Point& centre, double norm,
     solver.options.initial_trust_region_radius = 1e8; // moves are small against the norm: nearly linear
     solver.options.max_num_iterations = 500;
     solver.options.parameter_tolerance = 1e-8;
-    solver.options.gradient_tolerance = 1e-8;
+    solver.options.gradient_tolerance = 1e-6;
     solver.options.function_tolerance = 1e-9;
-    Eigen::Vector2d angles(0, 0);
+    Eigen::Vector2d angles = residual.linear_minimum();
     const auto& summary = solver.Solve(residual, &angles);
     return {residual.point(angles), summary.iterations,
             summary.status != ceres::TinySolver<SphereResidual>::HIT_MAX_ITERATIONS};

@@ -39,7 +39,7 @@ struct SphereSolution {
 };
 
 /// Minimises d^T A d over the sphere |v^ - centre| = norm by Levenberg-Marquardt in two angles ((5.31)-(5.37)), from
-/// Cho's point. \param energy A, symmetric and positive semi-definite  \pre v != centre
+/// the linear solution at Cho's point. \param energy A, symmetric and positive semi-definite  \pre v != centre
 [[nodiscard]] SphereSolution place_on_sphere(const Point& v, const Point& centre, double norm,
                                              const Eigen::Matrix3d& energy);
 
