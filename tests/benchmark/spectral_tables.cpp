@@ -32,7 +32,8 @@ EmbedOptions options_of(Method method, Statistic statistic, double strength)
     EmbedOptions options;
     options.carriers.method = method;
     options.carriers.statistic = statistic;
-    options.message = read_message("hex:0123456789abcdef");
+    options.carriers.bits = 64;
+    options.message = read_message("bits:0000000100100011010001010110011110001001101010111100110111101111");
     options.placement.strength = strength;
     options.carriers.trim = 0.1; // as in the thesis' tables
     return options;
