@@ -67,6 +67,17 @@ TEST_P(Threads, MayNest)
     EXPECT_EQ(visits, std::vector<int>(visits.size(), 1));
 }
 
+TEST_P(Threads, DoTwoThingsSideBySide)
+{
+    std::vector<int> first(3, 0);
+    int second = 0;
+    side_by_side([&] { for_chunks(3, 1, [&](int begin, int /*end*/) { first[begin] = begin; }); }, [&] { second = 7; });
+    EXPECT_EQ(first, (std::vector<int>{0, 1, 2}));
+    EXPECT_EQ(second, 7);
+    EXPECT_THROW(side_by_side([&] { second = 8; }, [] { throw std::runtime_error("second"); }), std::runtime_error);
+    EXPECT_EQ(second, 8);
+}
+
 TEST_P(Threads, MayAllAskAtOnce)
 {
     std::vector<std::thread> callers;
