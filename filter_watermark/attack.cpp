@@ -54,7 +54,7 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
     vcg_ext::Surface surface = read_surface(layer);
     const vcg_ext::AttackReport report = apply_attack(surface, options, progress);
     if (report.positions_only) {
-        NormalShares shares(faces_at_a_time);
+        NormalShares shares(layer.cm.vert.size());
         write_positions(layer, surface.points, shares);
     } else {
         write_surface(layer, surface);

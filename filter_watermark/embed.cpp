@@ -109,7 +109,7 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
         report["warnings"].push_back(stretched_as_written);
     if (const std::string others = about_other_layers(document, "carries the mark"); !others.empty())
         report["warnings"].push_back(others);
-    NormalShares shares(faces_at_a_time);
+    NormalShares shares(layer.cm.vert.size());
     certificate.write(certified);
     file.write(report); // the last that can fail
     write_positions(layer, surface.points, shares);

@@ -71,32 +71,47 @@ vcg_ext::Surface read_surface(const MeshModel& layer)
 
 namespace {
 
-/// Of the elements that are not deleted, in order.
-template <class Elements>
-std::vector<int> indices_of_present(const Elements& elements)
-{
-    return vcg_ext::indices_where(int(elements.size()), [&elements](int i) { return !elements[i].IsD(); });
-}
+/// The elements that are not deleted, in order.
+class Present {
+public:
+    template <class Elements>
+    Present(const Elements& elements, int count) : count_(count)
+    {
+        if (count < int(elements.size()))
+            numbers_ = vcg_ext::indices_where(int(elements.size()), [&](int i) { return !elements[i].IsD(); });
+    }
+
+    int count() const { return count_; }
+    int operator[](int i) const { return numbers_.empty() ? i : numbers_[i]; }
+
+private:
+    int count_;
+    std::vector<int> numbers_; ///< empty where all are there
+};
 
 } // namespace
 
 vcg_ext::Surface read_surface(const MeshModel& layer, bool with_matrix)
 {
     const CMeshO& mesh = layer.cm;
-    const std::vector<int> vertices = indices_of_present(mesh.vert);
-    const std::vector<int> faces = indices_of_present(mesh.face);
+    const Present vertices(mesh.vert, mesh.vn);
+    const Present faces(mesh.face, mesh.fn);
+    const bool all = vertices.count() == int(mesh.vert.size());
     vcg_ext::Surface surface;
-    surface.points.resize(vertices.size());
-    surface.triangles.resize(faces.size());
-    std::vector<int> number(mesh.vert.size(), -1);
-    vcg_ext::for_each_index(int(vertices.size()), [&](int i) {
+    surface.points.resize(vertices.count());
+    surface.triangles.resize(faces.count());
+    std::vector<int> number(all ? 0 : mesh.vert.size(), -1);
+    vcg_ext::for_each_index(vertices.count(), [&](int i) {
         const auto& p = mesh.vert[vertices[i]].cP();
         surface.points[i] = vcg_ext::Point(p[0], p[1], p[2]);
-        number[vertices[i]] = i;
+        if (!all)
+            number[vertices[i]] = i;
     });
-    vcg_ext::for_each_index(int(faces.size()), [&](int i) {
-        for (int corner = 0; corner < 3; ++corner)
-            surface.triangles[i][corner] = number[mesh.face[faces[i]].cV(corner) - mesh.vert.data()];
+    vcg_ext::for_each_index(faces.count(), [&](int i) {
+        for (int corner = 0; corner < 3; ++corner) {
+            const int v = int(mesh.face[faces[i]].cV(corner) - mesh.vert.data());
+            surface.triangles[i][corner] = all ? v : number[v];
+        }
     });
     if (with_matrix) {
         const Eigen::Affine3d matrix(matrix_of(layer));
@@ -134,9 +149,8 @@ void put_points(MeshModel& layer, const vcg_ext::Points& points)
 }
 
 /// The corners' shares in their vertices' normals: the face's normal, weighted by the angle.
-std::array<Point3m, 3> normals_by_angle(const CFaceO& face)
+std::array<Point3m, 3> normals_by_angle(const CFaceO& face, const Point3m& normal)
 {
-    const Point3m normal = vcg::TriangleNormal(face).Normalize();
     const auto edge = [&](int j) { return (face.cP((j + 1) % 3) - face.cP(j)).Normalize(); };
     const Point3m e0 = edge(0);
     const Point3m e1 = edge(1);
@@ -144,23 +158,7 @@ std::array<Point3m, 3> normals_by_angle(const CFaceO& face)
     return {normal * vcg::AngleN(e0, -e2), normal * vcg::AngleN(-e0, e1), normal * vcg::AngleN(-e1, e2)};
 }
 
-/// Calls `visit(i, corner, vertex)` for the corners of `count` faces from `first` on, in order at each vertex: the lower
-/// half of the vertices on one core, the upper half on another.
-template <class Visit>
-void visit_corners_by_halves(CMeshO& mesh, std::size_t first, int count, const Visit& visit)
-{
-    const CVertexO* middle = mesh.vert.data() + mesh.vert.size() / 2;
-    vcg_ext::for_chunks(2, 1, [&](int half, int) {
-        for (int i = 0; i < count; ++i)
-            if (CFaceO& face = mesh.face[first + i]; !face.IsD())
-                for (int corner = 0; corner < 3; ++corner)
-                    if ((face.V(corner) < middle) == (half == 0))
-                        visit(i, corner, *face.V(corner));
-    });
-}
-
 /// What MeshLab's own update does on one core, with the same sums in the same order, on all of them.
-/// \param shares of `faces_at_a_time`
 void update_box_and_normals(CMeshO& mesh, NormalShares& shares)
 {
     mesh.bbox = vcg_ext::ordered_fold(
@@ -170,8 +168,8 @@ void update_box_and_normals(CMeshO& mesh, NormalShares& shares)
                 box.Add(mesh.vert[v].cP());
         },
         [](Box3m& box, const Box3m& part) { box.Add(part); });
-    const auto clear = [](int, int, CVertexO& vertex) { vertex.N() = Point3m(0, 0, 0); };
-    visit_corners_by_halves(mesh, 0, int(mesh.face.size()), clear);
+    std::fill(shares.begun.begin(), shares.begun.end(), 0);
+    const CVertexO* middle = mesh.vert.data() + mesh.vert.size() / 2;
     for (std::size_t first = 0; first < mesh.face.size(); first += faces_at_a_time) {
         const int count = int(std::min<std::size_t>(faces_at_a_time, mesh.face.size() - first));
         vcg_ext::for_each_index(count, [&](int i) {
@@ -179,10 +177,21 @@ void update_box_and_normals(CMeshO& mesh, NormalShares& shares)
             if (face.IsD())
                 return;
             face.N() = vcg::TriangleNormal(face).Normalize();
-            shares[i] = normals_by_angle(face);
+            shares.of_corners[i] = normals_by_angle(face, face.N());
         });
-        const auto add = [&](int i, int corner, CVertexO& vertex) { vertex.N() += shares[i][corner]; };
-        visit_corners_by_halves(mesh, first, count, add);
+        vcg_ext::for_chunks(2, 1, [&](int half, int) { // of the vertices, each with its terms in order
+            for (int i = 0; i < count; ++i)
+                if (CFaceO& face = mesh.face[first + i]; !face.IsD())
+                    for (int corner = 0; corner < 3; ++corner) {
+                        CVertexO* vertex = face.V(corner);
+                        if ((vertex < middle) != (half == 0))
+                            continue;
+                        char& begun = shares.begun[vertex - mesh.vert.data()];
+                        const Point3m& share = shares.of_corners[i][corner];
+                        vertex->N() = begun ? vertex->N() + share : share;
+                        begun = 1;
+                    }
+        });
     }
 }
 
@@ -289,7 +298,7 @@ MeshModel& add_copy(MeshDocument& document, const MeshModel& layer, const QStrin
 void write_surface(MeshModel& layer, const vcg_ext::Surface& surface)
 {
     CMeshO& mesh = layer.cm;
-    NormalShares shares(faces_at_a_time);
+    NormalShares shares(surface.points.size());
     CMeshO room; // where the memory is missing, it is missed here, while the layer is whole
     vcg::tri::Allocator<CMeshO>::AddVertices(room, surface.points.size());
     vcg::tri::Allocator<CMeshO>::AddFaces(room, surface.triangles.size());

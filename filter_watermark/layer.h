@@ -37,12 +37,17 @@ vcg_ext::Surface read_surface(const MeshModel& layer, bool with_matrix);
 constexpr int faces_at_a_time = 1 << 16; ///< whose normals are made anew
 
 /// The memory that new normals need. What has it before the mesh is changed, or a report written, cannot fail afterwards.
-using NormalShares = std::vector<std::array<Point3m, 3>>;
+struct NormalShares {
+    explicit NormalShares(std::size_t vertices) : of_corners(faces_at_a_time), begun(vertices) {}
+
+    std::vector<std::array<Point3m, 3>> of_corners; ///< of the faces that are looked at
+    std::vector<char> begun;                        ///< per vertex whether its sum has a first term
+};
 
 /// Gives the vertices that are not deleted the positions that read_surface() gave, changed, in order. All else stays;
 /// normals and box follow. A matrix that stretches becomes the identity: the positions have it in them, and files are
 /// written without a matrix, so that what is seen, saved and read is one body.
-/// \param shares of `faces_at_a_time`
+/// \param shares of as many vertices as the layer has, deleted ones too
 void write_positions(MeshModel& layer, const vcg_ext::Points& points, NormalShares& shares);
 
 /// What the layer's faces show that must not slide along with the vertices under it: colours and quality of vertices,
