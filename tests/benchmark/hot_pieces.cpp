@@ -105,7 +105,7 @@ Piece wave_sums(const Surface& surface)
 /// All histograms of norms, each mean moved by a tenth of its carrier.
 Piece histograms(const Surface& surface)
 {
-    const Carriers cut = shells(surface.points, shell_frame(surface.points, solid_topology(surface)), 0, carriers);
+    const Carriers cut = shells(surface.points, shell_frame(surface), 0, carriers);
     std::vector<std::vector<double>> values(carriers);
     for (std::size_t v = 0; v < cut.label.size(); ++v)
         if (cut.label[v] >= 0)
@@ -122,7 +122,7 @@ Piece histograms(const Surface& surface)
 Piece sphere_placement(const Surface& surface)
 {
     const auto cover = std::make_shared<Cover>(surface);
-    const ShellFrame frame = shell_frame(surface.points, solid_topology(surface));
+    const ShellFrame frame = shell_frame(surface);
     const double step = 1e-3 * (frame.maximum - frame.minimum);
     return repeated([cover, frame, step] {
         Points placed(cover->points.size());

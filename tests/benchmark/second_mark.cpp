@@ -23,7 +23,7 @@ namespace {
 Comb comb_of(const Surface& surface)
 {
     const Body body = body_of(surface);
-    const ShellFrame frame = shell_frame(body.surface.points, solid_topology(body.surface));
+    const ShellFrame frame = shell_frame(body.surface);
     return find_comb(norms(body.surface.points, frame.centre), frame.minimum, frame.maximum);
 }
 

@@ -33,8 +33,8 @@ TEST(Shells, TurnAndScaleWithTheMesh)
     Points moved = bunny.points;
     for (Point& p : moved)
         p = 3.7 * (turn * p) + Point(10, -20, 30);
-    const ShellFrame here = shell_frame(bunny.points, solid_topology(bunny));
-    const ShellFrame there = shell_frame(moved, solid_topology(bunny));
+    const ShellFrame here = shell_frame(bunny);
+    const ShellFrame there = shell_frame(moved, bunny.triangles, hole_fans(bunny));
     const Carriers before = shells(bunny.points, here, 0.1, 64);
     const Carriers after = shells(moved, there, 0.1, 64);
     EXPECT_LT((3.7 * (turn * here.centre) + Point(10, -20, 30) - there.centre).norm(), 1e-12);
@@ -46,10 +46,10 @@ TEST(Shells, DoNotDependOnTheNumberOfThreads)
 {
     const Surface bunny = load("bunny00.off");
     set_threads(1);
-    const ShellFrame alone = shell_frame(bunny.points, solid_topology(bunny));
+    const ShellFrame alone = shell_frame(bunny);
     const Carriers carriers_alone = shells(bunny.points, alone, 0.1, 64);
     set_threads(3);
-    const ShellFrame together = shell_frame(bunny.points, solid_topology(bunny));
+    const ShellFrame together = shell_frame(bunny);
     const Carriers carriers_together = shells(bunny.points, together, 0.1, 64);
     set_threads(0);
     EXPECT_EQ(alone.centre, together.centre);
@@ -59,9 +59,9 @@ TEST(Shells, DoNotDependOnTheNumberOfThreads)
 TEST(Shells, RefuseASphereAndAFlatNothing)
 {
     const Surface octahedron = load("octahedron.off");
-    EXPECT_THROW((void)shell_frame(octahedron.points, solid_topology(octahedron)), Error);
+    EXPECT_THROW((void)shell_frame(octahedron), Error);
     const Surface nothing{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}};
-    EXPECT_THROW((void)shell_frame(nothing.points, solid_topology(nothing)), Error);
+    EXPECT_THROW((void)shell_frame(nothing), Error);
 }
 
 } // namespace

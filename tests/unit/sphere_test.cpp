@@ -48,7 +48,7 @@ double energy_at(const Eigen::Matrix3d& energy, const Point& move)
 /// Shells with all that they were cut from.
 struct Shells {
     explicit Shells(const Surface& s)
-        : frame(shell_frame(s.points, solid_topology(s))), norms(vcg_ext::norms(s.points, frame.centre)),
+        : frame(shell_frame(s)), norms(vcg_ext::norms(s.points, frame.centre)),
           carriers(shells(s.points, frame, 0.1, 64))
     {
     }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace vcg_ext {
 
@@ -14,6 +15,11 @@ namespace {
 // Moments go with the sixth power of the size, quadrics' determinants with the twelfth of it over its square.
 constexpr double largest = 1e35;
 constexpr double smallest = 1e-35;
+
+bool within_largest(const Eigen::AlignedBox3d& box)
+{
+    return box.min().minCoeff() >= -largest && box.max().maxCoeff() <= largest;
+}
 
 } // namespace
 
@@ -28,44 +34,38 @@ void check_surface(const Surface& surface, const char* which)
     if (surface.triangles.empty())
         throw Error(mesh + " has no faces, so there is no surface. "
                            "Open a mesh with faces, or reconstruct the surface.");
-    struct Seen {
-        bool outside = false;
-        Eigen::AlignedBox3d box;
-    };
-    const auto [outside, box] = ordered_fold(
-        static_cast<int>(surface.triangles.size()), Seen(),
-        [&](Seen& seen, int f) {
-            for (const int v : surface.triangles[f]) {
-                if (v < 0 || v >= vertices)
-                    seen.outside = true;
-                else
-                    seen.box.extend(surface.points[v]);
-            }
-        },
-        [](Seen& seen, const Seen& part) {
-            seen.outside = seen.outside || part.outside;
-            seen.box.extend(part.box);
-        });
-    if (outside)
+    const unsigned highest = ordered_maximum(static_cast<int>(surface.triangles.size()), 0U, [&](int f) {
+        const Triangle& t = surface.triangles[f];
+        return std::max({static_cast<unsigned>(t[0]), static_cast<unsigned>(t[1]), static_cast<unsigned>(t[2])});
+    });
+    if (highest >= surface.points.size()) // negative numbers are larger still
         throw Error("A face of the " + std::string(which) + " refers to a vertex that does not exist.");
-    if (box.min().minCoeff() < -largest || box.max().maxCoeff() > largest)
+    const auto spread = [&](const Triangle& t) {
+        return bounding_box({surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]}).sizes().maxCoeff();
+    };
+    const auto has_corners = [&points = surface.points](const Triangle& t) {
+        return points[t[0]] != points[t[1]] && points[t[1]] != points[t[2]] && points[t[2]] != points[t[0]];
+    };
+    const auto proper = std::find_if(surface.triangles.begin(), surface.triangles.end(), has_corners);
+    const Eigen::AlignedBox3d around_all = bounding_box(surface.points);
+    if (proper != surface.triangles.end() && spread(*proper) >= smallest && within_largest(around_all))
+        return; // whichever vertices have faces
+    const Eigen::AlignedBox3d box = bounding_box(surface);
+    if (!within_largest(box))
         throw Error(mesh + " has coordinates of more than 1e35. Scale it down first.");
     const double size = box.sizes().maxCoeff();
     if (size > 0 && size < smallest)
         throw Error(mesh + " is smaller than 1e-35. Scale it up first.");
-    const auto has_corners = [&points = surface.points](const Triangle& t) {
-        return points[t[0]] != points[t[1]] && points[t[1]] != points[t[2]] && points[t[2]] != points[t[0]];
-    };
-    if (std::none_of(surface.triangles.begin(), surface.triangles.end(), has_corners))
+    if (proper == surface.triangles.end())
         throw Error("No face of the " + std::string(which) +
                     " has three distinct corners. "
                     "Check its coordinates, or reconstruct the surface.");
 }
 
-Welded checked_weld(const Surface& surface, const char* which)
+Welded checked_weld(Surface surface, const char* which)
 {
     check_surface(surface, which);
-    return weld(surface);
+    return weld(std::move(surface));
 }
 
 } // namespace vcg_ext

@@ -12,6 +12,6 @@ void check_surface(const Surface& surface, const char* which = "mesh");
 
 /// weld() of a checked surface; so there are faces afterwards.
 /// \throw Error as check_surface()
-[[nodiscard]] Welded checked_weld(const Surface& surface, const char* which = "mesh");
+[[nodiscard]] Welded checked_weld(Surface surface, const char* which = "mesh");
 
 } // namespace vcg_ext

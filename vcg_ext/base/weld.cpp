@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <numeric>
+#include <utility>
 
 namespace vcg_ext {
 
@@ -106,12 +107,12 @@ bool is_identity(const std::vector<int>& numbers)
     return ordered_sum(static_cast<int>(numbers.size()), 0, [&](int i) { return numbers[i] != i; }) == 0;
 }
 
-Welded weld(const Surface& surface)
+Welded weld(Surface surface)
 {
     const std::size_t vertices = surface.points.size();
     std::vector<int> first = first_equals(surface.points);
     if (is_welded(first, surface))
-        return {{copy_of(surface.points), surface.triangles}, std::move(first)};
+        return {std::move(surface), std::move(first)};
     Welded result;
     result.surface.triangles.reserve(surface.triangles.size());
     std::vector<int> site_of_first(vertices, -1);

@@ -22,7 +22,7 @@ struct Welded {
 [[nodiscard]] bool is_identity(const std::vector<int>& numbers);
 
 /// Welds by exact position (0 and -0 are one). Sites keep the order of their first vertices.
-[[nodiscard]] Welded weld(const Surface& surface);
+[[nodiscard]] Welded weld(Surface surface);
 
 /// Positions of `original` with those of `sites` put in; vertices without a site keep theirs.
 [[nodiscard]] Points unweld(const Points& original, const std::vector<int>& site_of_vertex, const Points& sites);

@@ -14,11 +14,16 @@ std::vector<double> norms(const Points& points, const Point& centre)
     return result;
 }
 
-ShellFrame shell_frame(const Points& points, const SolidTopology& topology)
+ShellFrame shell_frame(const Surface& surface)
+{
+    return shell_frame(surface.points, surface.triangles, hole_fans(surface));
+}
+
+ShellFrame shell_frame(const Points& points, const std::vector<Triangle>& triangles, const HoleFans& holes)
 {
     ShellFrame frame;
-    frame.centre = topology.apexes == 0 ? area_centre(points, topology.triangles)
-                                        : area_centre(solid_points(topology, points), topology.triangles);
+    frame.centre = holes.apexes == 0 ? area_centre(points, triangles)
+                                     : area_centre(solid_points(holes, points), triangles, holes.fans);
     const auto norm = [&](int v) { return (points[v] - frame.centre).norm(); };
     const Range range = range_of(static_cast<int>(points.size()), norm);
     frame.minimum = range.least;

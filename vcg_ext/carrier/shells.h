@@ -20,7 +20,11 @@ struct ShellFrame {
 
 /// The frame that a surface itself defines.
 /// \throw Error where no face has an area, or all norms are the same
-[[nodiscard]] ShellFrame shell_frame(const Points& points, const SolidTopology& topology);
+[[nodiscard]] ShellFrame shell_frame(const Surface& surface);
+
+/// The same of its vertices elsewhere. \param holes hole_fans() of the surface
+[[nodiscard]] ShellFrame shell_frame(const Points& points, const std::vector<Triangle>& triangles,
+                                     const HoleFans& holes);
 
 /// \param trim part of the range of norms that is cut off at both ends, eps of (5.2)
 [[nodiscard]] Carriers shells(const Points& points, const ShellFrame& frame, double trim, int count);

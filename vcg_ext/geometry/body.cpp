@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace vcg_ext {
 
@@ -97,23 +98,23 @@ void mend(Body& body)
 void leave_out_loose_pieces(Body& body)
 {
     const Surface& surface = body.surface;
-    Sets sets = pieces_of(surface);
-    for (int v = 0; v < static_cast<int>(surface.points.size()); ++v)
-        body.pieces += sets.of(v) == v;
+    const std::vector<int> piece = pieces_of(surface);
+    const int vertices = static_cast<int>(surface.points.size());
+    body.pieces = ordered_sum(vertices, 0, [&](int v) { return piece[v] == v; });
     if (body.pieces == 1)
         return;
     std::vector<double> area(surface.points.size(), 0); // of the piece, at the site that names it
     double total = 0;
     for (const Triangle& t : surface.triangles) {
         const double a = scaled_normal(surface.points, t).norm();
-        area[sets.of(t[0])] += a;
+        area[piece[t[0]]] += a;
         total += a;
     }
-    const auto is_loose = [&](int v) { return area[sets.of(v)] < loose * total; };
+    const auto is_loose = [&](int v) { return area[piece[v]] < loose * total; };
     double together = 0;
     int count = 0;
-    for (int v = 0; v < static_cast<int>(area.size()); ++v)
-        if (sets.of(v) == v && is_loose(v)) {
+    for (int v = 0; v < vertices; ++v)
+        if (piece[v] == v && is_loose(v)) {
             together += area[v];
             ++count;
         }
@@ -125,29 +126,28 @@ void leave_out_loose_pieces(Body& body)
 
 } // namespace
 
-Body body_of(const Surface& surface, const char* which)
+Body body_of(Surface surface, const char* which)
 {
-    Welded welded = checked_weld(surface, which);
+    Welded welded = checked_weld(std::move(surface), which);
     Body body{std::move(welded.surface), std::move(welded.site_of_vertex)};
     mend(body);
     leave_out_loose_pieces(body);
     return body;
 }
 
-std::optional<Body> body_moved(const Body& before, const Surface& moved)
+std::optional<Points> sites_moved(const Body& before, const Points& moved)
 {
-    check_surface(moved);
     const std::vector<int>& site_of = before.site_of_vertex;
     const int vertices = static_cast<int>(site_of.size());
     if (!before.closed || before.pieces > 1 || *std::min_element(site_of.begin(), site_of.end()) < 0)
         return {};
     Points sites(before.surface.points.size());
     for (int v = vertices - 1; v >= 0; --v) // the first of each is the last that stays
-        sites[site_of[v]] = moved.points[v];
-    if (ordered_sum(vertices, 0, [&](int v) { return moved.points[v] != sites[site_of[v]]; }) > 0 ||
+        sites[site_of[v]] = moved[v];
+    if (ordered_sum(vertices, 0, [&](int v) { return moved[v] != sites[site_of[v]]; }) > 0 ||
         !is_identity(first_equals(sites)))
         return {};
-    return Body{{std::move(sites), before.surface.triangles}, site_of, before.pieces, 0, true};
+    return sites;
 }
 
 std::string about_loose_pieces(const Body& body)

@@ -24,12 +24,11 @@ struct Body {
 };
 
 /// \param which how an error names it  \throw Error as check_surface()
-[[nodiscard]] Body body_of(const Surface& surface, const char* which = "mesh");
+[[nodiscard]] Body body_of(Surface surface, const char* which = "mesh");
 
-/// body_of() of a surface with the faces that `before` was made of and vertices elsewhere; numbered as `before` is. Empty
-/// where faces alone do not tell that the two bodies differ by positions only.
-/// \throw Error as check_surface()
-[[nodiscard]] std::optional<Body> body_moved(const Body& before, const Surface& moved);
+/// The sites of body_of() a surface with the faces that `before` was made of and vertices elsewhere. Empty where faces
+/// alone do not tell that the two bodies differ by positions only.
+[[nodiscard]] std::optional<Points> sites_moved(const Body& before, const Points& moved);
 
 /// "30 of the 31 separate pieces of the mesh are below 1 % of its area, and carry nothing."; empty where none are.
 [[nodiscard]] std::string about_loose_pieces(const Body& body);

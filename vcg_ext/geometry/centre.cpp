@@ -6,22 +6,44 @@
 
 namespace vcg_ext {
 
-Point area_centre(const Points& points, const std::vector<Triangle>& triangles)
+namespace {
+
+/// Sum of A and of A (a + b + c) over triangles; about a point nearby, so that far is not inexact.
+struct Moments {
+    double area = 0;
+    Point first = Point::Zero();
+
+    Moments& operator+=(const Moments& other)
+    {
+        area += other.area;
+        first += other.first;
+        return *this;
+    }
+};
+
+Moments moments_about(const Point& near, const Points& points, const std::vector<Triangle>& triangles)
 {
-    using Moments = Eigen::Vector4d; // sum A (a + b + c) / 3 and sum A; about a corner, so that far is not inexact
+    return ordered_sum(static_cast<int>(triangles.size()), Moments(), [&](int f) {
+        const Point& a = points[triangles[f][0]];
+        const Point to_b = points[triangles[f][1]] - a;
+        const Point to_c = points[triangles[f][2]] - a;
+        const double area = to_b.cross(to_c).norm();
+        return Moments{area, area * (3 * (a - near) + to_b + to_c)};
+    });
+}
+
+} // namespace
+
+Point area_centre(const Points& points, const std::vector<Triangle>& triangles, const std::vector<Triangle>& fans)
+{
     if (triangles.empty())
         throw Error("The mesh has no faces, so it has no surface to mark. Reconstruct the surface first.");
     const Point near = points[triangles[0][0]];
-    const Moments sum = ordered_sum(static_cast<int>(triangles.size()), Moments(Moments::Zero()), [&](int f) {
-        const Triangle& t = triangles[f];
-        const double area = scaled_normal(points, t).norm();
-        Moments moments;
-        moments << area * ((points[t[0]] - near) + (points[t[1]] - near) + (points[t[2]] - near)) / 3, area;
-        return moments;
-    });
-    if (!(sum[3] > 0))
+    Moments sum = moments_about(near, points, triangles);
+    sum += moments_about(near, points, fans);
+    if (!(sum.area > 0))
         throw Error("No face of the mesh has an area. Check its coordinates, or reconstruct the surface.");
-    return near + sum.head<3>() / sum[3];
+    return near + sum.first / (3 * sum.area);
 }
 
 } // namespace vcg_ext

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../base/surface.h"
-#include "sets.h"
 
 namespace vcg_ext {
 
-/// Which vertices hang together by faces; the lowest names the piece.
-[[nodiscard]] Sets pieces_of(const Surface& surface);
+/// Per vertex the lowest of those that it hangs together with by faces.
+[[nodiscard]] std::vector<int> pieces_of(const Surface& surface);
 
 /// A connected piece of a surface.
 struct Part {

@@ -27,12 +27,10 @@ bool is_body(const Frame& solid, const Frame& surface)
 
 } // namespace
 
-SolidTopology solid_topology(const Surface& surface)
+HoleFans hole_fans(const Surface& surface)
 {
-    SolidTopology result;
-    result.triangles = surface.triangles;
+    HoleFans result;
     result.sites = static_cast<int>(surface.points.size());
-    result.surface_triangles = static_cast<int>(result.triangles.size());
     const std::vector<EdgeUse> edges = boundary(surface);
     result.orientable = std::none_of(edges.begin(), edges.end(), [](const EdgeUse& e) { return e.faces == 2; });
     if (!result.orientable)
@@ -49,32 +47,39 @@ SolidTopology solid_topology(const Surface& surface)
             const int from = e.balance > 0 ? e.low : e.high;
             const int to = e.balance > 0 ? e.high : e.low;
             result.rims.push_back({from, to, apex});
-            result.triangles.push_back({to, from, apex});
+            result.fans.push_back({to, from, apex});
         }
     }
     return result;
 }
 
-Points solid_points(const SolidTopology& topology, const Points& vertices)
+SolidTopology solid_topology(const Surface& surface)
 {
-    Points points(topology.points());
-    for_each_index(topology.sites, [&](int v) { points[v] = vertices[v]; });
-    place_apexes(topology, points);
+    SolidTopology result{hole_fans(surface), surface.triangles, static_cast<int>(surface.triangles.size())};
+    result.triangles.insert(result.triangles.end(), result.fans.begin(), result.fans.end());
+    return result;
+}
+
+Points solid_points(const HoleFans& holes, const Points& vertices)
+{
+    Points points(holes.points());
+    for_each_index(holes.sites, [&](int v) { points[v] = vertices[v]; });
+    place_apexes(holes, points);
     return points;
 }
 
-void place_apexes(const SolidTopology& topology, Points& points)
+void place_apexes(const HoleFans& holes, Points& points)
 {
-    std::fill(points.begin() + topology.sites, points.end(), Point::Zero());
-    std::vector<double> length(topology.apexes, 0);
-    for (const auto& [from, to, apex] : topology.rims) {
+    std::fill(points.begin() + holes.sites, points.end(), Point::Zero());
+    std::vector<double> length(holes.apexes, 0);
+    for (const auto& [from, to, apex] : holes.rims) {
         const double l = (points[to] - points[from]).norm();
         points[apex] += l * (points[to] + points[from]) / 2;
-        length[apex - topology.sites] += l;
+        length[apex - holes.sites] += l;
     }
-    for (int a = 0; a < topology.apexes; ++a)
+    for (int a = 0; a < holes.apexes; ++a)
         if (length[a] > 0)
-            points[topology.sites + a] /= length[a];
+            points[holes.sites + a] /= length[a];
 }
 
 Frame principal_frame(const Points& points, const SolidTopology& topology)

@@ -4,17 +4,17 @@
 
 namespace vcg_ext {
 
-/// How a surface bounds a solid, open or broken as it may be: a chain of triangles whose boundary is empty.
+/// What closes a surface, open or broken as it may be, so that it bounds a solid: a chain of triangles with the surface's
+/// boundary.
 ///
 /// The edges that are used more often in one direction than in the other are the surface's boundary. Each connected
 /// piece of it is closed by a fan from all its edges to one apex, as often as the edge lacks. A missing triangle is so
 /// put back, a doubled one is taken away once, one turned round is put right, all exactly: the fan over a triangle's
 /// edges is the triangle. Nothing jumps, since no edge decides between two definitions of the solid.
-struct SolidTopology {
-    std::vector<Triangle> triangles; ///< those of the surface, then those of the fans
-    int sites = 0;                   ///< the surface's vertices; points from here on are the fans' apexes
+struct HoleFans {
+    std::vector<Triangle> fans;
+    int sites = 0; ///< the surface's vertices; points from here on are the fans' apexes
     int apexes = 0;
-    int surface_triangles = 0;            ///< triangles from here on are the fans'
     std::vector<std::array<int, 3>> rims; ///< edges of the boundary, from, to, and the apex they are closed to
     /// Whether neighbours run round the same way throughout. Where no way to turn them makes them, there is no inside and
     /// are no fans.
@@ -24,13 +24,22 @@ struct SolidTopology {
 };
 
 /// \pre the surface is mended, see body_of()
+[[nodiscard]] HoleFans hole_fans(const Surface& surface);
+
+/// A surface and what closes it in one list of triangles, whose boundary is empty.
+struct SolidTopology : HoleFans {
+    std::vector<Triangle> triangles; ///< those of the surface, then those of the fans
+    int surface_triangles = 0;       ///< triangles from here on are the fans'
+};
+
+/// \pre the surface is mended, see body_of()
 [[nodiscard]] SolidTopology solid_topology(const Surface& surface);
 
-/// The points that the topology's triangles refer to: an apex is the mean of its fan's edges by length.
-[[nodiscard]] Points solid_points(const SolidTopology& topology, const Points& vertices);
+/// The points that the triangles refer to: an apex is the mean of its fan's edges by length.
+[[nodiscard]] Points solid_points(const HoleFans& holes, const Points& vertices);
 
 /// Puts the apexes where the sites are now. \pre `points` holds sites and apexes
-void place_apexes(const SolidTopology& topology, Points& points);
+void place_apexes(const HoleFans& holes, Points& points);
 
 /// Aligns a body by its moments: centre, principal axes, and the axes' signs by the third moments ((3.1)-(3.5)).
 ///

@@ -174,18 +174,12 @@ const MethodRow& row_of(Method method)
     throw Error("There is no such method. Choose one of the list.");
 }
 
-Body body_for(const MethodRow& method, const Surface& surface)
+Body body_for(const MethodRow& method, Surface surface)
 {
-    Body body = body_of(surface);
+    Body body = body_of(std::move(surface));
     if (method.number)
         method.number(body);
     return body;
-}
-
-Body body_for(const MethodRow& method, const Surface& moved, const Body& before)
-{
-    std::optional<Body> body = body_moved(before, moved);
-    return body ? std::move(*body) : body_for(method, moved);
 }
 
 MarkFrame find_copy(const MethodRow& method, const Copy& copy, const Plan& plan)

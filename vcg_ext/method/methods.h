@@ -69,10 +69,7 @@ struct MethodRow {
 };
 
 /// body_of(), numbered as the method is the fastest on it.
-[[nodiscard]] Body body_for(const MethodRow& method, const Surface& surface);
-
-/// The same of a surface with the faces that `before` was made of, and vertices elsewhere.
-[[nodiscard]] Body body_for(const MethodRow& method, const Surface& moved, const Body& before);
+[[nodiscard]] Body body_for(const MethodRow& method, Surface surface);
 
 /// MethodRow::find_copy, or what stands for it.
 [[nodiscard]] MarkFrame find_copy(const MethodRow& method, const Copy& copy, const Plan& plan);

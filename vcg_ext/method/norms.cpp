@@ -140,13 +140,13 @@ private:
 class Norm {
 public:
     Norm(const Cover& cover, Radial how, const Plan& plan, const SphereOptions& options)
-        : cover_(cover), plan_(plan), topology_(solid_topology(cover.surface)), placement_(cover, how, options)
+        : cover_(cover), plan_(plan), holes_(hole_fans(cover.surface)), placement_(cover, how, options)
     {
     }
 
     static constexpr double guard = 0;
 
-    [[nodiscard]] ShellFrame find(const Points& points) const { return shell_frame(points, topology_); }
+    [[nodiscard]] ShellFrame find(const Points& points) const { return shell_frame(points, cover_.triangles, holes_); }
 
     [[nodiscard]] Carriers read(const Points& points, const ShellFrame& frame) const
     {
@@ -186,7 +186,7 @@ public:
 private:
     const Cover& cover_;
     const Plan& plan_;
-    SolidTopology topology_;
+    HoleFans holes_;
     SpherePlacement placement_;
     ShellFrame frame_;
     std::vector<double> norms_; ///< of the cover, in that frame
@@ -206,7 +206,7 @@ Plan plan_norms(const Key& key, const CarrierOptions& options)
 
 MarkFrame find_norms(const Surface& surface, const Plan& /*plan*/)
 {
-    return shell_frame(surface.points, solid_topology(surface));
+    return shell_frame(surface);
 }
 
 Readings read_norms(const Surface& surface, const Plan& plan, const MarkFrame& frame)

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 namespace vcg_ext {
 
@@ -340,14 +341,14 @@ void tell_pieces(const Body& body, DetectReport& result)
 
 } // namespace
 
-DetectReport detect_whole(const Surface& surface, const Key& key, const DetectOptions& options, double share,
+DetectReport detect_whole(Surface surface, const Key& key, const DetectOptions& options, double share,
                           const Progress& progress)
 {
     options.carriers.check();
     Stopwatch watch;
     report(progress, 0, "Finding carriers");
     DetectReport result =
-        detect_whole(body_for(row_of(options.carriers.method), surface), key, options, share, progress);
+        detect_whole(body_for(row_of(options.carriers.method), std::move(surface)), key, options, share, progress);
     result.seconds["detection"] = watch.lap();
     return result;
 }
@@ -360,12 +361,12 @@ DetectReport detect_whole(const Body& body, const Key& key, const DetectOptions&
     return result;
 }
 
-DetectReport detect(const Surface& surface, const Key& key, const DetectOptions& options, const Progress& progress)
+DetectReport detect(Surface surface, const Key& key, const DetectOptions& options, const Progress& progress)
 {
     options.carriers.check();
     Stopwatch watch;
     report(progress, 0, "Finding carriers");
-    const Body body = body_for(row_of(options.carriers.method), surface);
+    const Body body = body_for(row_of(options.carriers.method), std::move(surface));
     const std::vector<Part> pieces =
         body.pieces - body.loose_pieces > 1 ? pieces_to_look_at(body.surface) : std::vector<Part>();
     DetectReport result =

@@ -25,13 +25,13 @@ using LayerReader = std::function<Readings(const MethodRow& method, const Plan& 
 /// pedestal, each piece by itself too (pieces.h).
 ///
 /// \throw Error on input that cannot carry a mark: no faces, coordinates that are not finite, no range of values.
-[[nodiscard]] DetectReport detect(const Surface& surface, const Key& key, const DetectOptions& options,
+[[nodiscard]] DetectReport detect(Surface surface, const Key& key, const DetectOptions& options,
                                   const Progress& progress = {});
 
 /// The same of the whole alone.
 /// \param share see detect_by()
-[[nodiscard]] DetectReport detect_whole(const Surface& surface, const Key& key, const DetectOptions& options,
-                                        double share = 1, const Progress& progress = {});
+[[nodiscard]] DetectReport detect_whole(Surface surface, const Key& key, const DetectOptions& options, double share = 1,
+                                        const Progress& progress = {});
 
 /// The same of a body, see body_for().
 [[nodiscard]] DetectReport detect_whole(const Body& body, const Key& key, const DetectOptions& options,

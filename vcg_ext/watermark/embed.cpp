@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "embed.h"
 
+#include "../base/check.h"
 #include "../base/parallel.h"
 #include "../base/stopwatch.h"
 #include "../base/text.h"
@@ -19,6 +20,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <utility>
 
 namespace vcg_ext {
 
@@ -145,6 +147,19 @@ std::vector<char> held_sites(const Body& body, const std::vector<char>& held)
     return result;
 }
 
+/// For as long as this lives the body's sites are elsewhere.
+class Moved {
+public:
+    Moved(Body& body, Points sites) : body_(body), other_(std::move(sites)) { body_.surface.points.swap(other_); }
+    ~Moved() { body_.surface.points.swap(other_); }
+    Moved(const Moved&) = delete;
+    Moved& operator=(const Moved&) = delete;
+
+private:
+    Body& body_;
+    Points other_; ///< what it has not now
+};
+
 /// What a reader has to set, in one sentence.
 std::string recipe_of(const EmbedOptions& options)
 {
@@ -167,13 +182,13 @@ void warn_of_shape(const Body& body, EmbedReport& result)
                                   " separate pieces, marked as one body: taking some of them away loses the mark.");
     if (body.closed)
         return;
-    const SolidTopology topology = solid_topology(body.surface);
-    if (topology.apexes == 0)
+    const HoleFans holes = hole_fans(body.surface);
+    if (holes.apexes == 0)
         return;
-    const Surface closed{solid_points(topology, body.surface.points), topology.triangles};
-    const double holes = 1 - surface_area(body.surface) / surface_area(closed);
-    if (holes > 0.01)
-        result.warnings.push_back("The mesh is open: its holes would take " + text(std::round(100 * holes)) +
+    const double closing = surface_area({solid_points(holes, body.surface.points), holes.fans});
+    const double share = closing / (closing + surface_area(body.surface));
+    if (share > 0.01)
+        result.warnings.push_back("The mesh is open: its holes would take " + text(std::round(100 * share)) +
                                   " % of its surface. Filling them later keeps the mark, cutting more away does not.");
 }
 
@@ -211,7 +226,7 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     report(progress, 0, "Finding carriers");
     Stopwatch watch;
     const MethodRow& method = row_of(options.carriers.method);
-    const Body body = body_for(method, surface);
+    Body body = body_for(method, {copy_of(surface.points), surface.triangles});
     EmbedReport result;
     result.method = options.carriers.method;
     result.statistic = options.carriers.statistic;
@@ -234,12 +249,20 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
         }
         return points;
     };
-    Surface marked{{}, surface.triangles};
+    Points marked;
+    const auto check_marked = [&] {
+        if (std::optional<Points> sites = sites_moved(body, marked)) {
+            const Moved moved(body, std::move(*sites));
+            check_surface(body.surface);
+            return self_check(body, key, options, result, progress);
+        }
+        return self_check(body_for(method, {marked, surface.triangles}), key, options, result, progress);
+    };
     const auto check = [&](const Points& placed) {
         result.seconds["placement"] += watch.lap();
-        marked.points = as_stored(placed);
+        marked = as_stored(placed);
         const std::size_t warnings = result.warnings.size();
-        result.detection_ratio = self_check(body_for(method, marked, body), key, options, result, progress);
+        result.detection_ratio = check_marked();
         if (result.detection_ratio < 1)
             result.warnings.resize(warnings);
         result.seconds["check"] += watch.lap();
@@ -250,8 +273,8 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
         stored = rounded_to_float(stored);
 
     report(progress, 95, "Measuring");
-    result.moved_vertices = moved_count(surface.points, marked.points);
-    result.max_displacement = max_displacement(surface.points, marked.points);
+    result.moved_vertices = moved_count(surface.points, marked);
+    result.max_displacement = max_displacement(surface.points, marked);
     result.mrms = local_mrms(cover.points, stored, cover.triangles, cover.around);
     result.diagonal = bounding_diagonal(body.surface);
     result.mrms_relative = result.mrms / result.diagonal;
@@ -262,7 +285,7 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     warn_of_shape(body, result);
     result.seconds["measure"] = watch.lap();
     report(progress, 100, "Done");
-    surface.points = std::move(marked.points);
+    surface.points = std::move(marked);
     return result;
 }
 
