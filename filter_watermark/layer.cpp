@@ -3,6 +3,7 @@
 
 #include <vcg_ext/base/error.h>
 #include <vcg_ext/base/parallel.h>
+#include <vcg_ext/base/prefetch.h>
 
 #include <Eigen/SVD>
 #include <algorithm>
@@ -148,14 +149,17 @@ void put_points(MeshModel& layer, const vcg_ext::Points& points)
     });
 }
 
-/// The corners' shares in their vertices' normals: the face's normal, weighted by the angle.
-std::array<Point3m, 3> normals_by_angle(const CFaceO& face, const Point3m& normal)
+/// The corners with their shares in the vertices' normals: the face's normal, weighted by the angle.
+std::array<NormalShares::Corner, 3> corners_of(CFaceO& face)
 {
+    const Point3m& normal = face.N();
     const auto edge = [&](int j) { return (face.cP((j + 1) % 3) - face.cP(j)).Normalize(); };
     const Point3m e0 = edge(0);
     const Point3m e1 = edge(1);
     const Point3m e2 = edge(2);
-    return {normal * vcg::AngleN(e0, -e2), normal * vcg::AngleN(-e0, e1), normal * vcg::AngleN(-e1, e2)};
+    return {{{face.V(0), normal * vcg::AngleN(e0, -e2)},
+             {face.V(1), normal * vcg::AngleN(-e0, e1)},
+             {face.V(2), normal * vcg::AngleN(-e1, e2)}}};
 }
 
 /// What MeshLab's own update does on one core, with the same sums in the same order, on all of them.
@@ -170,27 +174,32 @@ void update_box_and_normals(CMeshO& mesh, NormalShares& shares)
         [](Box3m& box, const Box3m& part) { box.Add(part); });
     std::fill(shares.begun.begin(), shares.begun.end(), 0);
     const CVertexO* middle = mesh.vert.data() + mesh.vert.size() / 2;
-    for (std::size_t first = 0; first < mesh.face.size(); first += faces_at_a_time) {
-        const int count = int(std::min<std::size_t>(faces_at_a_time, mesh.face.size() - first));
+    for (std::size_t first = 0; first < mesh.face.size(); first += NormalShares::faces) {
+        const int count = int(std::min<std::size_t>(NormalShares::faces, mesh.face.size() - first));
         vcg_ext::for_each_index(count, [&](int i) {
             CFaceO& face = mesh.face[first + i];
+            if (i + vcg_ext::elements_ahead < count)
+                for (int corner = 0; corner < 3; ++corner)
+                    vcg_ext::prefetch(mesh.face[first + i + vcg_ext::elements_ahead].cV(corner));
+            shares.corners[i] = {};
             if (face.IsD())
                 return;
             face.N() = vcg::TriangleNormal(face).Normalize();
-            shares.of_corners[i] = normals_by_angle(face, face.N());
+            shares.corners[i] = corners_of(face);
         });
         vcg_ext::for_chunks(2, 1, [&](int half, int) { // of the vertices, each with its terms in order
-            for (int i = 0; i < count; ++i)
-                if (CFaceO& face = mesh.face[first + i]; !face.IsD())
-                    for (int corner = 0; corner < 3; ++corner) {
-                        CVertexO* vertex = face.V(corner);
-                        if ((vertex < middle) != (half == 0))
-                            continue;
-                        char& begun = shares.begun[vertex - mesh.vert.data()];
-                        const Point3m& share = shares.of_corners[i][corner];
-                        vertex->N() = begun ? vertex->N() + share : share;
-                        begun = 1;
-                    }
+            for (int i = 0; i < count; ++i) {
+                if (i + vcg_ext::elements_ahead < count)
+                    for (const auto& later : shares.corners[i + vcg_ext::elements_ahead])
+                        vcg_ext::prefetch(later.vertex);
+                for (const auto& [vertex, share] : shares.corners[i]) {
+                    if (!vertex || (vertex < middle) != (half == 0))
+                        continue;
+                    char& begun = shares.begun[vertex - mesh.vert.data()];
+                    vertex->N() = begun ? vertex->N() + share : share;
+                    begun = 1;
+                }
+            }
         });
     }
 }

@@ -34,14 +34,19 @@ vcg_ext::Surface read_surface(const MeshModel& layer);
 /// The same with its matrix, or without.
 vcg_ext::Surface read_surface(const MeshModel& layer, bool with_matrix);
 
-constexpr int faces_at_a_time = 1 << 16; ///< whose normals are made anew
-
 /// The memory that new normals need. What has it before the mesh is changed, or a report written, cannot fail afterwards.
 struct NormalShares {
-    explicit NormalShares(std::size_t vertices) : of_corners(faces_at_a_time), begun(vertices) {}
+    static constexpr int faces = 1 << 15; ///< at a time
 
-    std::vector<std::array<Point3m, 3>> of_corners; ///< of the faces that are looked at
-    std::vector<char> begun;                        ///< per vertex whether its sum has a first term
+    struct Corner {
+        CVertexO* vertex = nullptr;
+        Point3m share;
+    };
+
+    explicit NormalShares(std::size_t vertices) : corners(faces), begun(vertices) {}
+
+    std::vector<std::array<Corner, 3>> corners;
+    std::vector<char> begun; ///< per vertex whether its sum has a first term
 };
 
 /// Gives the vertices that are not deleted the positions that read_surface() gave, changed, in order. All else stays;

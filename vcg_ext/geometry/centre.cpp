@@ -3,6 +3,7 @@
 
 #include "../base/error.h"
 #include "../base/parallel.h"
+#include "../base/prefetch.h"
 
 namespace vcg_ext {
 
@@ -24,6 +25,7 @@ struct Moments {
 Moments moments_about(const Point& near, const Points& points, const std::vector<Triangle>& triangles)
 {
     return ordered_sum(static_cast<int>(triangles.size()), Moments(), [&](int f) {
+        prefetch_corners(points, triangles, f);
         const Point& a = points[triangles[f][0]];
         const Point to_b = points[triangles[f][1]] - a;
         const Point to_c = points[triangles[f][2]] - a;

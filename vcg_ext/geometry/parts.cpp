@@ -2,6 +2,7 @@
 #include "parts.h"
 
 #include "../base/parallel.h"
+#include "../base/prefetch.h"
 #include "size.h"
 
 #include <algorithm>
@@ -32,6 +33,8 @@ public:
         }
     }
 
+    void prefetch(int i) const { vcg_ext::prefetch(&parent_[i]); }
+
     void join(int a, int b)
     {
         for (;;) {
@@ -56,6 +59,9 @@ std::vector<int> pieces_of(const Surface& surface)
     const int vertices = static_cast<int>(surface.points.size());
     SharedSets sets(vertices);
     for_each_index(static_cast<int>(surface.triangles.size()), [&](int f) {
+        if (const std::size_t later = f + elements_ahead; later < surface.triangles.size())
+            for (const int v : surface.triangles[later])
+                sets.prefetch(v);
         const auto& [a, b, c] = surface.triangles[f];
         sets.join(a, b);
         sets.join(a, c);

@@ -2,6 +2,7 @@
 #include "norms.h"
 
 #include "../base/parallel.h"
+#include "../base/prefetch.h"
 #include "../carrier/comb.h"
 #include "../placement/fold_guard.h"
 #include "../placement/radial.h"
@@ -71,6 +72,10 @@ private:
         for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
             const Points neighbours = sweep == 0 ? Points() : best_;
             place_each(vertices, [&](int v) {
+                if (const int later = v + elements_ahead / 6;
+                    later < static_cast<int>(cover_.points.size())) // six faces each
+                    std::for_each(cover_.around.begin(later), cover_.around.end(later),
+                                  [&](int f) { prefetch(&cover_.normals[f]); });
                 const Eigen::Matrix3d energy = sweep == 0 ? sphere_energy(cover_, v, options_.weights)
                                                           : sphere_energy(cover_, neighbours, v, options_.weights);
                 const SphereSolution solution = place_on_sphere(cover_.points[v], centre_, targets_[v], energy);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../base/parallel.h"
+#include "../base/prefetch.h"
 #include "../base/surface.h"
 
 #include <algorithm>
@@ -17,6 +18,7 @@ struct Cover {
           areas(triangles.size())
     {
         for_each_index(static_cast<int>(triangles.size()), [this](int f) {
+            prefetch_corners(points, triangles, f);
             normals[f] = scaled_normal(points, triangles[f]);
             areas[f] = normals[f].norm();
             normals[f] = areas[f] > 0 ? Point(normals[f] / areas[f]) : Point(Point::Zero());

@@ -2,6 +2,7 @@
 #include "fold_guard.h"
 
 #include "../base/parallel.h"
+#include "../base/prefetch.h"
 
 #include <utility>
 
@@ -58,7 +59,10 @@ bool is_folded(const Cover& cover, const Points& points, int face)
 
 std::vector<int> folded_faces(const Cover& cover, const Points& points)
 {
-    return indices_where(static_cast<int>(cover.triangles.size()), [&](int f) { return is_folded(cover, points, f); });
+    return indices_where(static_cast<int>(cover.triangles.size()), [&](int f) {
+        prefetch_corners(points, cover.triangles, f);
+        return is_folded(cover, points, f);
+    });
 }
 
 std::vector<int> folded_faces(const Cover& cover, const Points& points, const std::vector<int>& before,

@@ -276,7 +276,7 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     result.moved_vertices = moved_count(surface.points, marked);
     result.max_displacement = max_displacement(surface.points, marked);
     result.mrms = local_mrms(cover.points, stored, cover.triangles, cover.around);
-    result.diagonal = bounding_diagonal(body.surface);
+    result.diagonal = bounding_box(body.surface.points).diagonal().norm();
     result.mrms_relative = result.mrms / result.diagonal;
     if (method.is_smooth)
         result.plane_bend = largest_bend(cover.normals, stored, cover.triangles, cover.around);
