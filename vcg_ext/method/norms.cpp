@@ -58,10 +58,21 @@ private:
         return changed;
     }
 
+    void prefetch_faces(int v) const
+    {
+        for (const int* f = cover_.around.begin(v); f != cover_.around.end(v); ++f) {
+            prefetch(&cover_.normals[*f]);
+            if (how_ == Radial::Selective)
+                prefetch(&cover_.triangles[*f]);
+        }
+    }
+
     template <class Place>
     void place_each(const std::vector<int>& vertices, const Place& place)
     {
         for_each_index(static_cast<int>(vertices.size()), [&](int i) {
+            if (const std::size_t later = i + elements_ahead / 6; later < vertices.size()) // each has some six faces
+                prefetch_faces(vertices[later]);
             const int v = vertices[i];
             best_[v] = std::isnan(targets_[v]) ? cover_.points[v] : place(v);
         });
@@ -72,10 +83,6 @@ private:
         for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
             const Points neighbours = sweep == 0 ? Points() : best_;
             place_each(vertices, [&](int v) {
-                if (const int later = v + elements_ahead / 6;
-                    later < static_cast<int>(cover_.points.size())) // six faces each
-                    std::for_each(cover_.around.begin(later), cover_.around.end(later),
-                                  [&](int f) { prefetch(&cover_.normals[f]); });
                 const Eigen::Matrix3d energy = sweep == 0 ? sphere_energy(cover_, v, options_.weights)
                                                           : sphere_energy(cover_, neighbours, v, options_.weights);
                 const SphereSolution solution = place_on_sphere(cover_.points[v], centre_, targets_[v], energy);

@@ -2,12 +2,10 @@
 #include "displacement.h"
 
 #include "../base/parallel.h"
-#include "../base/vcg_point.h"
+#include "../geometry/nearest.h"
 
 #include <algorithm>
 #include <cmath>
-#include <vcg/space/distance3.h>
-#include <vcg/space/triangle3.h>
 
 namespace vcg_ext {
 
@@ -30,12 +28,7 @@ const std::array<Point, 3> quadrature = {Point(4, 1, 1) / 6, Point(1, 4, 1) / 6,
 
 double distance(const Point& p, const Points& points, const Triangle& t)
 {
-    const auto relative = [&](int k) { return to_vcg(points[t[k]] - p); };
-    double distance = 0;
-    vcg::Point3d nearest;
-    vcg::TrianglePointDistance(vcg::Triangle3<double>(relative(0), relative(1), relative(2)), vcg::Point3d(0, 0, 0),
-                               distance, nearest);
-    return nearest.Norm();
+    return nearest_to_origin(points[t[0]] - p, points[t[1]] - p, points[t[2]] - p).norm();
 }
 
 /// Lowers each sample's least distance where the face `t` is nearer; mostly its plane or its size says that it is not.

@@ -2,26 +2,16 @@
 #include "selective.h"
 
 #include "../base/vcg_point.h"
+#include "../geometry/nearest.h"
 #include "radial.h"
 
 #include <cmath>
 #include <limits>
 #include <vcg/math/quadric.h>
-#include <vcg/space/distance3.h>
-#include <vcg/space/triangle3.h>
 
 namespace vcg_ext {
 
 namespace {
-
-Point nearest_in_triangle(const std::array<Point, 3>& face, const Point& from)
-{
-    const vcg::Triangle3<double> triangle(to_vcg(face[0] - from), to_vcg(face[1] - from), to_vcg(face[2] - from));
-    double distance = 0;
-    vcg::Point3d nearest;
-    vcg::TrianglePointDistance(triangle, vcg::Point3d(0, 0, 0), distance, nearest);
-    return from + from_vcg(nearest);
-}
 
 /// The point between `from` and `to` whose distance from the centre is `norm`.
 Point on_the_way(const Point& from, const Point& to, const Point& centre, double norm)
@@ -56,7 +46,7 @@ Point selective_candidate(const Point& v, const std::array<Point, 3>& face, cons
 {
     const auto squared = [&](const Point& p) { return (p - centre).squaredNorm(); };
     const bool inward = norm * norm < squared(v);
-    const Point goal = inward ? nearest_in_triangle(face, centre)
+    const Point goal = inward ? Point(centre + nearest_to_origin(face[0] - centre, face[1] - centre, face[2] - centre))
                               : *std::max_element(face.begin(), face.end(), [&](const Point& a, const Point& b) {
                                     return squared(a) < squared(b);
                                 });
