@@ -5,7 +5,9 @@
 #include "closed_loop.h"
 #include "plan.h"
 
+#include <cmath>
 #include <optional>
+#include <utility>
 
 namespace vcg_ext {
 
@@ -126,6 +128,9 @@ Marking embed_scalar(Scalar& scalar, const Cover& cover, const Plan& plan, const
     std::optional<TargetScalars> aims;
     const auto aim_at_targets = [&] { aims.emplace(carriers, scalar.mobility(), bits, statistic, guard); };
     aim_at_targets();
+    // Where folds hold vertices back, a push brings but a share of what it asks for; the next one reckons with that.
+    std::vector<double> pushed(count, 0);
+    std::vector<double> last(count, 0); // margins
     const auto propose = [&](int) { return scalar.place(aims->at(targets)); };
     const auto read = [&](const Points& stored, int round) {
         const auto frame = scalar.find(stored);
@@ -138,9 +143,13 @@ Marking embed_scalar(Scalar& scalar, const Cover& cover, const Plan& plan, const
             }
             return margins;
         }
-        for (int k = 0; k < count; ++k)
-            if (margins[k] < 0)
-                targets[k] = std::clamp(targets[k] + side(k) * ((1 - enough) * alpha - margins[k]), 0.02, 0.98);
+        for (int k = 0; k < count; ++k) {
+            const double share = pushed[k] > 0 ? std::clamp((margins[k] - last[k]) / pushed[k], 0.25, 1.0) : 1;
+            const double missing = margins[k] < 0 ? (1 - enough) * alpha - margins[k] : 0;
+            const double target = std::clamp(targets[k] + side(k) * missing / share, 0.02, 0.98);
+            pushed[k] = std::abs(target - std::exchange(targets[k], target));
+        }
+        last = margins;
         return margins;
     };
     LoopResult loop = closed_loop(options.max_rounds, store.round, propose, read, "Placing vertices", progress);

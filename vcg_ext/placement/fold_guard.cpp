@@ -96,11 +96,14 @@ std::vector<int> guard_folds(const Cover& cover, Points& placed, std::vector<int
             for (const int v : cover.triangles[f])
                 if (step[v] < steps && placed[v] != cover.points[v])
                     vertices.add(v);
-        faces.clear();
-        for (const int v : vertices.list()) {
+        const std::vector<int>& list = vertices.list();
+        for_each_index(static_cast<int>(list.size()), [&](int i) {
+            const int v = list[i];
             placed[v] = ++step[v] == steps ? cover.points[v] : retreat(v, step[v]);
+        });
+        faces.clear();
+        for (const int v : list)
             std::for_each(cover.around.begin(v), cover.around.end(v), [&](int f) { faces.add(f); });
-        }
         bad = only(faces.list(), [&](int f) { return is_folded(cover, placed, f); });
     }
     return step;
