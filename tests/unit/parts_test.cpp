@@ -2,8 +2,11 @@
 #include "vcg_ext/geometry/parts.h"
 
 #include "support/shapes.h"
+#include "vcg_ext/base/parallel.h"
+#include "vcg_ext/geometry/sets.h"
 
 #include <gtest/gtest.h>
+#include <random>
 
 using namespace vcg_ext;
 
@@ -18,6 +21,32 @@ void add(Surface& all, const Surface& more)
 }
 
 } // namespace
+
+TEST(Pieces, AreSetsJoinedInTurnAtAnyNumberOfThreads)
+{
+    constexpr int vertices = 40000;
+    std::mt19937 draws(3);
+    const auto vertex = [&draws] { return static_cast<int>(draws() % vertices); };
+    for (const int faces : {5000, 15000, 60000}) { // many pieces, one that holds half, nearly all one
+        Surface surface;
+        surface.points.resize(vertices, Point::Zero());
+        Sets sets(vertices);
+        for (int f = 0; f < faces; ++f) {
+            const Triangle t = {vertex(), vertex(), vertex()};
+            surface.triangles.push_back(t);
+            sets.join(t[0], t[1]);
+            sets.join(t[0], t[2]);
+        }
+        std::vector<int> expected(vertices);
+        for (int v = 0; v < vertices; ++v)
+            expected[v] = sets.of(v);
+        for (const int threads : {1, 2, 5}) {
+            set_threads(threads);
+            EXPECT_EQ(pieces_of(surface), expected) << faces << " faces, " << threads << " threads";
+        }
+        set_threads(0);
+    }
+}
 
 TEST(Parts, AreSortedByAreaAndWhole)
 {

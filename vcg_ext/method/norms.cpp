@@ -20,8 +20,8 @@ namespace {
 class SpherePlacement {
 public:
     SpherePlacement(const Cover& cover, Radial how, const SphereOptions& options)
-        : cover_(cover), how_(how), options_(options), targets_(cover_.points.size(), NAN), best_(cover_.points),
-          iterations_(cover_.points.size(), 0), converged_(cover_.points.size(), 1)
+        : cover_(cover), how_(how), options_(options), targets_(cover_.points.size(), NAN),
+          best_(copy_of(cover_.points)), iterations_(cover_.points.size(), 0), converged_(cover_.points.size(), 1)
     {
     }
 

@@ -99,6 +99,8 @@ void TargetScalars::map(int k, double target)
 {
     std::vector<double> values;
     std::vector<double> mobilities;
+    values.reserve(first_[k + 1] - first_[k]);
+    mobilities.reserve(first_[k + 1] - first_[k]);
     for (int i = first_[k]; i < first_[k + 1]; ++i) {
         values.push_back(cover_.value[vertices_[i]]);
         mobilities.push_back(mobility_[vertices_[i]]);
