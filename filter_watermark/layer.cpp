@@ -181,9 +181,11 @@ void update_box_and_normals(CMeshO& mesh, NormalShares& shares)
             if (i + vcg_ext::elements_ahead < count)
                 for (int corner = 0; corner < 3; ++corner)
                     vcg_ext::prefetch(mesh.face[first + i + vcg_ext::elements_ahead].cV(corner));
-            shares.corners[i] = {};
-            if (face.IsD())
+            if (face.IsD()) {
+                for (NormalShares::Corner& corner : shares.corners[i])
+                    corner.vertex = nullptr;
                 return;
+            }
             face.N() = vcg::TriangleNormal(face).Normalize();
             shares.corners[i] = corners_of(face);
         });
