@@ -4,13 +4,11 @@
 #include "../base/parallel.h"
 #include "../base/pi.h"
 #include "../base/vectorized.h"
+#include "wavefront.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <limits>
-#include <utility>
 
 namespace vcg_ext {
 
@@ -44,24 +42,6 @@ int high_pass_degree(double bound)
 }
 
 namespace {
-
-/// Where blocks of consecutive vertices begin, and the end: all neighbours of a block are in it and the two beside it.
-std::vector<int> blocks_of(const EdgeGraph& graph)
-{
-    constexpr int least = 1000; // vertices
-    std::vector<int> blocks{0};
-    int reach = 0; // of the blocks before the last
-    for (int v = 0; v < graph.vertices(); ++v) {
-        if (v < std::max(reach, blocks.back() + least))
-            continue;
-        for (int w = blocks.back(); w < v; ++w)
-            if (graph.degree(w) > 0)
-                reach = std::max(reach, graph.end(w)[-1] + 1);
-        blocks.push_back(v);
-    }
-    blocks.push_back(graph.vertices());
-    return blocks;
-}
 
 /// T_0 = x, T_1 = A x, T_(k+1) = 2 A T_k - T_(k-1), with A = 2 L / bound - 1, and what they sum up to.
 class Series {
@@ -148,60 +128,12 @@ private:
     std::vector<StoredLanes> sum_;
 };
 
-/// Takes `depth` terms from `term` on over blocks, one term a block behind the other, so that rows are still in the
-/// processor's cache when they come again.
-/// \param ends `ends(i)`: the blocks for the term + i, first and end
-template <class Ends>
-void take_staggered(Series& series, const std::vector<int>& blocks, int term, int depth, const Ends& ends)
-{
-    int low = std::numeric_limits<int>::max();
-    int high = 0;
-    for (int i = 0; i < depth; ++i) {
-        low = std::min(low, ends(i).first + i);
-        high = std::max(high, ends(i).second + i);
-    }
-    for (int j = low; j < high; ++j)
-        for (int i = 0; i < depth; ++i) {
-            const auto [first, end] = ends(i);
-            if (const int block = j - i; block >= first && block < end)
-                series.take(term + i, blocks[block], blocks[block + 1]);
-        }
-}
-
-/// Takes `depth` terms over all blocks: first over stretches of them, each by itself, a term reaching less far than the
-/// one before by a block at both ends; then over what that left out, about where stretches meet.
-void take_terms(Series& series, const std::vector<int>& blocks, int term, int depth, int stretches)
-{
-    const int count = static_cast<int>(blocks.size()) - 1;
-    const auto start = [&](int s) { return static_cast<int>(static_cast<std::int64_t>(count) * s / stretches); };
-    for_chunks(stretches, 1, [&](int s, int) {
-        take_staggered(series, blocks, term, depth, [&](int i) {
-            return std::pair(s == 0 ? 0 : start(s) + i, s + 1 == stretches ? count : start(s + 1) - i);
-        });
-    });
-    for_chunks(stretches - 1, 1, [&](int s, int) {
-        take_staggered(series, blocks, term, depth,
-                       [&](int i) { return std::pair(start(s + 1) - i, start(s + 1) + i); });
-    });
-}
-
 } // namespace
 
 Points apply(const HighPass& filter, const EdgeGraph& graph, const Points& x)
 {
-    constexpr int depth = 4;
-    constexpr int stretch = 5 * depth; // blocks
     Series series(filter, graph, x);
-    const std::vector<int> blocks = blocks_of(graph);
-    const int stretches = static_cast<int>(blocks.size() - 1) / stretch;
-    for (int k = 1; k < series.terms(); k += depth) {
-        const int terms = std::min(depth, series.terms() - k);
-        if (stretches > 1)
-            take_terms(series, blocks, k, terms, stretches);
-        else // few vertices, or numbered anyhow
-            for (int i = 0; i < terms; ++i)
-                for_chunks(graph.vertices(), 4096, [&](int begin, int end) { series.take(k + i, begin, end); });
-    }
+    take_steps(graph, 1, series.terms(), [&](int k, int begin, int end) { series.take(k, begin, end); });
     return series.sum();
 }
 

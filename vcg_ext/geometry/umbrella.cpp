@@ -5,10 +5,8 @@ namespace vcg_ext {
 
 Points taubin(const EdgeGraph& graph, Points points, int passes, double shrink, double inflate)
 {
-    for (int pass = 0; pass < passes; ++pass)
-        for (const double part : {shrink, inflate})
-            points = umbrella_step(graph, points, part);
-    return points;
+    return umbrella_series(graph, std::move(points), 2 * passes,
+                           [=](int step) { return step % 2 == 0 ? shrink : inflate; });
 }
 
 } // namespace vcg_ext

@@ -1,30 +1,44 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "../base/parallel.h"
 #include "laplacian.h"
+#include "wavefront.h"
+
+#include <array>
+#include <utility>
 
 namespace vcg_ext {
 
-/// Steps of Laplacian smoothing with uniform weights: in each every vertex goes the part `part` of the way to the mean
-/// of its neighbours, all at once. Vertices without neighbours stay.
+/// Steps of Laplacian smoothing with uniform weights: in each every vertex goes a part of the way to the mean of its
+/// neighbours, all at once. Vertices without neighbours stay.
 ///
 /// \param values a point per vertex, or a matrix of several side by side, which takes little longer than one
-/// \param part in (0, 1] to smooth, negative to inflate
+/// \param part `part(step)`, steps from 0 on: in (0, 1] to smooth, negative to inflate
+template <class Value, class Part>
+[[nodiscard]] std::vector<Value> umbrella_series(const EdgeGraph& graph, std::vector<Value> values, int steps,
+                                                 const Part& part)
+{
+    std::array<std::vector<Value>, 2> turns{std::move(values), {}};
+    turns[1].resize(steps > 0 ? turns[0].size() : 0);
+    take_steps(graph, 0, steps, [&](int step, int begin, int end) {
+        const std::vector<Value>& now = turns[step % 2];
+        std::vector<Value>& next = turns[(step + 1) % 2];
+        const double way = part(step);
+        for (int v = begin; v < end; ++v) {
+            const int degree = graph.degree(v);
+            next[v] = now[v];
+            if (degree > 0)
+                next[v] -= way / degree * laplacian_row(graph, now, v);
+        }
+    });
+    return std::move(turns[steps % 2]);
+}
+
+/// The same with one part for all steps.
 template <class Value>
 [[nodiscard]] std::vector<Value> umbrella_steps(const EdgeGraph& graph, std::vector<Value> values, double part,
                                                 int steps)
 {
-    std::vector<Value> moved(values.size());
-    for (int step = 0; step < steps; ++step) {
-        for_each_index(graph.vertices(), [&](int v) {
-            const int degree = graph.degree(v);
-            moved[v] = values[v];
-            if (degree > 0)
-                moved[v] -= part / degree * laplacian_row(graph, values, v);
-        });
-        values.swap(moved);
-    }
-    return values;
+    return umbrella_series(graph, std::move(values), steps, [part](int) { return part; });
 }
 
 /// One such step.
