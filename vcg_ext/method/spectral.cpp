@@ -6,7 +6,6 @@
 #include "../carrier/two_means.h"
 #include "../geometry/chebyshev.h"
 #include "../geometry/eigenbasis.h"
-#include "../geometry/normals.h"
 #include "../geometry/size.h"
 #include "../placement/fold_guard.h"
 #include "closed_loop.h"
@@ -210,9 +209,23 @@ std::vector<int> bits_of_patches(const PatchReading& reading, const Plan& plan, 
     return result;
 }
 
+/// Unit normals of some vertices of the cover.
+Points normals_of(const Cover& cover, const std::vector<int>& vertices)
+{
+    Points normals;
+    normals.reserve(vertices.size());
+    for (const int v : vertices) {
+        Point sum = Point::Zero();
+        std::for_each(cover.around.begin(v), cover.around.end(v),
+                      [&](int f) { sum += cover.areas[f] * cover.normals[f]; });
+        normals.push_back(sum.normalized());
+    }
+    return normals;
+}
+
 /// Moves the vertices of the patches that lack margin; all but those that fulfil their condition `at_first`.
 void reshape(const PatchReading& reading, const Plan& plan, const std::vector<int>& wanted, const Aim& aim,
-             const Cover& cover, const Points& normals, bool at_first, Points& points)
+             const Cover& cover, bool at_first, Points& points)
 {
     for_chunks(static_cast<int>(wanted.size()), 1, [&](int k, int) {
         const PatchShape& shape = reading.shapes[k];
@@ -221,9 +234,10 @@ void reshape(const PatchReading& reading, const Plan& plan, const std::vector<in
             return;
         const bool squash = wanted[k] == 1;
         const double ratio = squash ? aim.ratio : aim.round;
-        const Points moves = plan.options.as_printed ? printed_change(shape, reading.band, vertices, ratio)
-                                                     : least_change(shape, reading.band, normals, vertices, squash,
-                                                                    ratio, squash ? aim.energy : aim.energy / 4);
+        const Points moves = plan.options.as_printed
+                                 ? printed_change(shape, reading.band, vertices, ratio)
+                                 : least_change(shape, reading.band, normals_of(cover, vertices), vertices, squash,
+                                                ratio, squash ? aim.energy : aim.energy / 4);
         for (std::size_t i = 0; i < moves.size(); ++i)
             if (!cover.holds(vertices[i]))
                 points[vertices[i]] += moves[i];
@@ -304,7 +318,6 @@ Marking embed_spectral(const Cover& cover, const Plan& plan, const Bits& coded, 
     const Surface& surface = cover.surface;
     const EdgeGraph graph = edge_graph(surface);
     const SolidTopology topology = solid_topology(surface);
-    const Points normals = vertex_normals(surface.points, surface.triangles);
     const Aim aim{options.strength, plan.options.as_printed ? 1 : 1.1, least_energy(surface)};
     PatchReading reading = read_with(surface, topology, graph, plan, checked_frame(surface.points, topology));
     const Frame first = reading.frame;
@@ -321,7 +334,7 @@ Marking embed_spectral(const Cover& cover, const Plan& plan, const Bits& coded, 
 
     Points points = surface.points;
     const auto propose = [&](int round) {
-        reshape(reading, plan, wanted(), aim, cover, normals, round == 1, points);
+        reshape(reading, plan, wanted(), aim, cover, round == 1, points);
         Proposal proposal;
         proposal.guarded_vertices = plan.options.as_printed ? 0 : guard(cover, points);
         proposal.points = points;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "patch_shape.h"
 
+#include "../base/vectorized.h"
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -35,38 +37,103 @@ namespace {
 /// One patch in its shape's axes, and the displacements that multipliers ask for.
 class Problem {
 public:
+    /// \param normals of each of `vertices`
     Problem(const PatchShape& shape, const Points& band, const Points& normals, const std::vector<int>& vertices)
+        : count_(static_cast<int>(vertices.size())), groups_((vertices.size() + lanes - 1) / lanes)
     {
-        for (const int v : vertices) {
-            h_.emplace_back(shape.axes.transpose() * band[v]);
-            n_.emplace_back(shape.axes.transpose() * normals[v]);
+        for (int i = 0; i < count_; ++i) {
+            const Point h = shape.axes.transpose() * band[vertices[i]];
+            const Point n = shape.axes.transpose() * normals[i];
+            Group& group = groups_[i / lanes];
+            for (int k = 0; k < 3; ++k) {
+                group.h[k].value[i % lanes] = h[k];
+                group.n[k].value[i % lanes] = n[k];
+            }
         }
     }
 
-    /// d of one vertex (Sherman-Morrison).
+    /// d of each vertex, along the shape's axes.
     /// \param b each below `softness`
-    [[nodiscard]] Point displacement(std::size_t i, const Point& b) const
+    [[nodiscard]] Points displacements(const Point& b) const
     {
-        const Point c = (softness - b.array()).inverse();
-        const Point free = c.cwiseProduct(b).cwiseProduct(h_[i]);
-        const Point cn = c.cwiseProduct(n_[i]);
-        return free - cn * (n_[i].dot(free) / (1 + n_[i].dot(cn)));
+        Points result(count_);
+        for (int i = 0; i < count_; ++i) {
+            const Moved group = moved(groups_[i / lanes], Prices(b));
+            for (int k = 0; k < 3; ++k)
+                result[i][k] = group.d[k][i % lanes];
+        }
+        return result;
     }
 
     /// The variances along the axes after that move.
     [[nodiscard]] Point variances(const Point& b) const
     {
-        Point sum = Point::Zero();
-        for (std::size_t i = 0; i < h_.size(); ++i)
-            sum += (h_[i] + displacement(i, b)).cwiseAbs2();
-        return sum / static_cast<double>(h_.size());
+        Lanes sums[3] = {};
+        add_squares(groups_, Prices(b), sums);
+        Point result;
+        for (int k = 0; k < 3; ++k)
+            result[k] = (sums[k][0] + sums[k][1] + sums[k][2] + sums[k][3]) / count_;
+        return result;
     }
 
     static constexpr double softness = 0.05; ///< price of a move along the surface beside one off it, 1
 
 private:
-    Points h_;
-    Points n_;
+    /// Bands and normals of some vertices; zeros where there are no more.
+    struct Group {
+        StoredLanes h[3] = {};
+        StoredLanes n[3] = {};
+    };
+
+    /// c = 1 / (softness - b), and c b.
+    struct Prices {
+        explicit Prices(const Point& b)
+        {
+            for (int k = 0; k < 3; ++k) {
+                c[k] = 1 / (softness - b[k]);
+                cb[k] = c[k] * b[k];
+            }
+        }
+
+        double c[3];
+        double cb[3];
+    };
+
+    struct Moved {
+        Lanes d[3];
+    };
+
+    /// By Sherman and Morrison's formula.
+    static Moved moved(const Group& group, const Prices& prices)
+    {
+        Moved result;
+        Lanes along = {};
+        Lanes price = {1, 1, 1, 1};
+        for (int k = 0; k < 3; ++k) {
+            const Lanes& n = group.n[k].value;
+            result.d[k] = prices.cb[k] * group.h[k].value;
+            along += n * result.d[k];
+            price += prices.c[k] * n * n;
+        }
+        const Lanes back = along / price;
+        for (int k = 0; k < 3; ++k)
+            result.d[k] -= prices.c[k] * group.n[k].value * back;
+        return result;
+    }
+
+    VCG_EXT_VECTORIZED static void add_squares(const std::vector<Group>& groups, const Prices& prices, Lanes* sums)
+    {
+        for (const Group& group : groups) {
+            const Moved move = moved(group, prices);
+            for (int k = 0; k < 3; ++k) {
+                const Lanes after = group.h[k].value + move.d[k];
+                sums[k] += after * after;
+            }
+        }
+    }
+
+    int count_;
+    std::vector<Group> groups_;
 };
 
 /// `weights . variances >= bound`, and its multiplier, by which it adds `weights` to B's diagonal.
@@ -136,9 +203,9 @@ Points least_change(const PatchShape& shape, const Points& band, const Points& n
 {
     const Problem problem(shape, band, normals, vertices);
     const Point b = solve(problem, conditions(squash, ratio, energy));
-    Points moves(vertices.size());
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-        moves[i] = shape.axes * problem.displacement(i, b);
+    Points moves = problem.displacements(b);
+    for (Point& move : moves)
+        move = shape.axes * move;
     return moves;
 }
 

@@ -30,7 +30,7 @@ struct PatchShape {
 /// the Lagrangian are d = (n n^T + softness - B)^-1 B h, with B diagonal in the shape's axes and linear in the
 /// conditions' multipliers; a dual ascent finds these. (3.21) instead takes all of the change from axes 2 and 3,
 /// whatever that costs.
-/// \param normals unit vertex normals of the whole mesh
+/// \param normals unit normals of `vertices`, one each
 /// \param ratio above 1
 /// \param energy 0 for none
 /// \return one displacement per vertex of `vertices`; zeros where the shape already fulfils its conditions
