@@ -116,7 +116,7 @@ TEST(Patches, OfATurnedFrameAreTheFlippedOnes)
 TEST(Patches, OfTheThesisHaveEqualAreasToo)
 {
     const Surface bunny = weld(load("bunny00.off")).surface;
-    const Patches patches = thesis_patches(bunny, principal_frame(bunny), 2, 70, 0.1);
+    const Patches patches = thesis_patches(bunny.points, solid_topology(bunny), principal_frame(bunny), 2, 70, 0.1);
     EXPECT_GE(patches.count(), 67); // a leftover at the end of each of the two layers
     EXPECT_LE(patches.count(), 70);
     std::vector<double> area = areas(bunny, patches);
@@ -133,7 +133,7 @@ TEST(Patches, RefuseASurfaceWithoutArea)
     const Frame frame = principal_frame(line);
     EXPECT_THROW((void)equal_area_patches(line.points, solid_topology(line), edge_graph(line), frame, 2, 4, 0.1),
                  Error);
-    EXPECT_THROW((void)thesis_patches(line, frame, 2, 8, 0.1), Error);
+    EXPECT_THROW((void)thesis_patches(line.points, solid_topology(line), frame, 2, 8, 0.1), Error);
 }
 
 } // namespace

@@ -36,12 +36,11 @@ std::vector<std::vector<int>> patch_vertices(const Patches& patches)
 
 namespace {
 
-Points in_frame(const Points& points, const Frame& frame)
+Points in_frame(Points points, const Frame& frame)
 {
-    Points local(points.size());
     for_each_index(static_cast<int>(points.size()),
-                   [&](int v) { local[v] = frame.axes.transpose() * (points[v] - frame.centre); });
-    return local;
+                   [&](int v) { points[v] = frame.axes.transpose() * (points[v] - frame.centre); });
+    return points;
 }
 
 /// Area over a coordinate, in fine steps.
@@ -151,7 +150,10 @@ Patches equal_area_patches(const Points& vertices, const SolidTopology& topology
 {
     check_frame(frame);
     constexpr int passes = 10;
-    const Points smooth = in_frame(solid_points(topology, taubin(graph, vertices, passes)), frame);
+    Points smooth = taubin(graph, vertices, passes);
+    smooth.resize(topology.points());
+    place_apexes(topology, smooth);
+    smooth = in_frame(std::move(smooth), frame);
     const Eigen::AlignedBox3d box = bounding_box(smooth);
     const AreaProfile along_first(box.min().x(), box.max().x());
     const AreaProfile along_second(box.min().y(), box.max().y());
@@ -217,15 +219,15 @@ double area_within(const Points& points, const Triangle& t, const Point& low, co
 
 /// Lines 3 to 18 of Algorithm 1 for one layer, whose patches are numbered from `patch` on. Returns the first number
 /// that is not used up; its vertices are the layer's leftover.
-int grow_patches(const Points& local, const Surface& surface, const VertexFaces& around, const std::vector<int>& sorted,
-                 const Point& low, const Point& high, double patch_area, std::vector<char>& processed, int patch,
-                 std::vector<int>& label)
+int grow_patches(const Points& local, const std::vector<Triangle>& triangles, const VertexFaces& around,
+                 const std::vector<int>& sorted, const Point& low, const Point& high, double patch_area,
+                 std::vector<char>& processed, int patch, std::vector<int>& label)
 {
     double area = 0;
     for (const int v : sorted) {
         label[v] = patch;
         for (const int* f = around.begin(v); f != around.end(v); ++f) {
-            const Triangle& t = surface.triangles[*f];
+            const Triangle& t = triangles[*f];
             if (processed[*f] || std::any_of(t.begin(), t.end(), [&](int w) { return label[w] < 0; }))
                 continue;
             processed[*f] = 1;
@@ -241,10 +243,13 @@ int grow_patches(const Points& local, const Surface& surface, const VertexFaces&
 
 } // namespace
 
-Patches thesis_patches(const Surface& surface, const Frame& frame, int layers, int count, double trim)
+Patches thesis_patches(const Points& points, const SolidTopology& topology, const Frame& frame, int layers, int count,
+                       double trim)
 {
     check_frame(frame);
-    const Points local = in_frame(surface.points, frame);
+    const Points local = in_frame(points, frame);
+    const std::vector<Triangle> triangles(topology.triangles.begin(),
+                                          topology.triangles.begin() + topology.surface_triangles);
     const int vertices = static_cast<int>(local.size());
     const auto by_axis = [&](int axis) { // equal ones by number, so that no sort decides
         return [&local, axis](int a, int b) {
@@ -272,11 +277,11 @@ Patches thesis_patches(const Surface& surface, const Frame& frame, int layers, i
     const auto layer_at = [&](double y) {
         return height > 0 ? std::min(layers - 1, static_cast<int>((y - bottom) / height)) : 0;
     };
-    const double total = ordered_sum(static_cast<int>(surface.triangles.size()), 0.0,
-                                     [&](int f) { return area_within(local, surface.triangles[f], from, to); });
+    const double total = ordered_sum(static_cast<int>(triangles.size()), 0.0,
+                                     [&](int f) { return area_within(local, triangles[f], from, to); });
 
-    const VertexFaces around = vertex_faces(vertices, surface.triangles);
-    std::vector<char> processed(surface.triangles.size(), 0);
+    const VertexFaces around = vertex_faces(vertices, triangles);
+    std::vector<char> processed(triangles.size(), 0);
     Patches patches{1, 0, std::vector<int>(vertices, -1)};
     std::vector<int> leftover;
     for (int layer = 0; layer < layers; ++layer) {
@@ -286,7 +291,7 @@ Patches thesis_patches(const Surface& surface, const Frame& frame, int layers, i
         for (const int v : inside)
             if (layer_at(local[v].y()) == layer)
                 sorted.push_back(v);
-        patches.columns = grow_patches(local, surface, around, sorted, from, to, total / count, processed,
+        patches.columns = grow_patches(local, triangles, around, sorted, from, to, total / count, processed,
                                        patches.columns, patches.label);
         for (const int v : sorted)
             if (patches.label[v] == patches.columns) {

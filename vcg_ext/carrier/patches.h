@@ -36,7 +36,8 @@ struct Patches {
 /// Its one slip is put right: the leftover at a layer's end takes no number from the next layer.
 /// \return `layers` is 1 and `columns` the number of full patches, which may differ from `count` by a few
 /// \throw Error where the surface has no area, and so no frame
-[[nodiscard]] Patches thesis_patches(const Surface& surface, const Frame& frame, int layers, int count, double trim);
+[[nodiscard]] Patches thesis_patches(const Points& points, const SolidTopology& topology, const Frame& frame,
+                                     int layers, int count, double trim);
 
 /// Per patch its vertices, ascending.
 [[nodiscard]] std::vector<std::vector<int>> patch_vertices(const Patches& patches);

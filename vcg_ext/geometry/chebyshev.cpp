@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace vcg_ext {
 
@@ -46,14 +47,13 @@ namespace {
 /// T_0 = x, T_1 = A x, T_(k+1) = 2 A T_k - T_(k-1), with A = 2 L / bound - 1, and what they sum up to.
 class Series {
 public:
-    Series(const HighPass& filter, const EdgeGraph& graph, const Points& x)
-        : filter_(filter), graph_(graph), scale_(2 / filter.bound), sum_(x.size())
+    Series(const HighPass& filter, const EdgeGraph& graph, Points x)
+        : filter_(filter), graph_(graph), scale_(2 / filter.bound), sum_(std::move(x))
     {
         for (std::vector<StoredLanes>& terms : terms_)
-            terms.resize(x.size());
-        for_each_index(static_cast<int>(x.size()), [&](int v) {
-            for (int axis = 0; axis < 3; ++axis)
-                terms_[0][v].value[axis] = x[v][axis];
+            terms.resize(sum_.size());
+        for_each_index(static_cast<int>(sum_.size()), [&](int v) {
+            terms_[0][v].value = Lanes{sum_[v][0], sum_[v][1], sum_[v][2], 0};
         });
     }
 
@@ -74,15 +74,8 @@ public:
             next_rows(rows, now, before, nullptr, scale_, 0, 0);
     }
 
-    [[nodiscard]] Points sum() const
-    {
-        Points result(sum_.size());
-        for_each_index(static_cast<int>(sum_.size()), [&](int v) {
-            const Lanes& s = sum_[v].value;
-            result[v] = {s[0], s[1], s[2]};
-        });
-        return result;
-    }
+    /// Of all terms that were taken. They are used up.
+    [[nodiscard]] Points sum() { return std::move(sum_); }
 
 private:
     struct Rows {
@@ -99,25 +92,28 @@ private:
         }
     };
 
-    VCG_EXT_VECTORIZED static void first_rows(const Rows& rows, const StoredLanes* x, StoredLanes* term,
-                                              StoredLanes* sum, double scale, double c0, double c1)
+    VCG_EXT_VECTORIZED static void first_rows(const Rows& rows, const StoredLanes* x, StoredLanes* term, Point* sum,
+                                              double scale, double c0, double c1)
     {
         for (int v = rows.begin; v < rows.end; ++v) {
             rows.times(x, v, scale, term[v].value);
-            sum[v].value = c0 * x[v].value + c1 * term[v].value;
+            const Lanes part = c0 * x[v].value + c1 * term[v].value;
+            sum[v] = {part[0], part[1], part[2]};
         }
     }
 
-    VCG_EXT_VECTORIZED static void next_rows(const Rows& rows, const StoredLanes* now, StoredLanes* before,
-                                             StoredLanes* sum, double scale, double c_now, double c_next)
+    VCG_EXT_VECTORIZED static void next_rows(const Rows& rows, const StoredLanes* now, StoredLanes* before, Point* sum,
+                                             double scale, double c_now, double c_next)
     {
         for (int v = rows.begin; v < rows.end; ++v) {
             Lanes next;
             rows.times(now, v, scale, next);
             next = 2 * next - before[v].value;
             before[v].value = next;
-            if (sum)
-                sum[v].value += c_now * now[v].value + c_next * next;
+            if (sum) {
+                const Lanes part = c_now * now[v].value + c_next * next;
+                sum[v] += Point(part[0], part[1], part[2]);
+            }
         }
     }
 
@@ -125,14 +121,14 @@ private:
     const EdgeGraph& graph_;
     double scale_;
     std::array<std::vector<StoredLanes>, 2> terms_; ///< the even and the odd
-    std::vector<StoredLanes> sum_;
+    Points sum_;                                    ///< at first x itself
 };
 
 } // namespace
 
-Points apply(const HighPass& filter, const EdgeGraph& graph, const Points& x)
+Points apply(const HighPass& filter, const EdgeGraph& graph, Points x)
 {
-    Series series(filter, graph, x);
+    Series series(filter, graph, std::move(x));
     take_steps(graph, 1, series.terms(), [&](int k, int begin, int end) { series.take(k, begin, end); });
     return series.sum();
 }
@@ -148,7 +144,7 @@ void add_band_of_moves(const HighPass& filter, const EdgeGraph& graph, const std
             ++at;
         x[at] = moves[i];
     }
-    const Points change = apply(filter, part_of(graph, near), x);
+    const Points change = apply(filter, part_of(graph, near), std::move(x));
     for (std::size_t i = 0; i < near.size(); ++i)
         band[near[i]] += change[i];
 }

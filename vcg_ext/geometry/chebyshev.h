@@ -27,7 +27,7 @@ struct HighPass {
 
 /// p(L) x: the high band of functions on the vertices, three at a time. Each row of each product is written by one
 /// thread alone, so the result is the same at any number of threads.
-[[nodiscard]] Points apply(const HighPass& filter, const EdgeGraph& graph, const Points& x);
+[[nodiscard]] Points apply(const HighPass& filter, const EdgeGraph& graph, Points x);
 
 /// What moves of some vertices do to a band: adds p(L) of them. It reaches as many edges far as the degree is high, so
 /// where few vertices move it costs less than the whole band.

@@ -10,12 +10,16 @@ namespace vcg_ext {
 
 EdgeGraph edge_graph(const Surface& surface)
 {
-    const int vertices = static_cast<int>(surface.points.size());
-    const VertexFaces around = vertex_faces(vertices, surface.triangles);
+    return edge_graph(vertex_faces(static_cast<int>(surface.points.size()), surface.triangles), surface.triangles);
+}
+
+EdgeGraph edge_graph(const VertexFaces& around, const std::vector<Triangle>& triangles)
+{
+    const int vertices = static_cast<int>(around.first.size()) - 1;
     CompressedRows rows = compressed_rows(vertices, 8, [&](int v, std::vector<int>& neighbours) {
         const auto begin = static_cast<std::ptrdiff_t>(neighbours.size());
         for (const int* f = around.begin(v); f != around.end(v); ++f)
-            for (const int w : surface.triangles[*f])
+            for (const int w : triangles[*f])
                 if (w != v)
                     neighbours.push_back(w);
         const auto row = neighbours.begin() + begin;

@@ -17,6 +17,8 @@ struct EdgeGraph {
 };
 
 [[nodiscard]] EdgeGraph edge_graph(const Surface& surface);
+/// \param around of the triangles
+[[nodiscard]] EdgeGraph edge_graph(const VertexFaces& around, const std::vector<Triangle>& triangles);
 
 /// The vertices that are at most `rings` edges away from one of `vertices`, ascending.
 [[nodiscard]] std::vector<int> within_rings(const EdgeGraph& graph, std::vector<int> vertices, int rings);

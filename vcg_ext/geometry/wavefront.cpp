@@ -71,7 +71,7 @@ void take_over_stretches(const std::vector<int>& blocks, int step, int depth, in
 
 void take_steps(const EdgeGraph& graph, int first, int last, const Take& take)
 {
-    constexpr int most = 4;           // steps at a time
+    constexpr int most = 6;           // steps at a time
     constexpr int stretch = 5 * most; // blocks
     const std::vector<int> blocks = blocks_of(graph);
     const int stretches = static_cast<int>(blocks.size() - 1) / stretch;

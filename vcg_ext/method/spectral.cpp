@@ -8,11 +8,12 @@
 #include "../geometry/eigenbasis.h"
 #include "../geometry/size.h"
 #include "../placement/fold_guard.h"
-#include "closed_loop.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace vcg_ext {
 
@@ -34,11 +35,10 @@ double PatchReading::soft(int patch) const
 
 namespace {
 
-Points about(const Point& centre, const Points& points)
+Points about(const Point& centre, Points points)
 {
-    Points result(points.size());
-    for_each_index(static_cast<int>(points.size()), [&](int v) { result[v] = points[v] - centre; });
-    return result;
+    for_each_index(static_cast<int>(points.size()), [&](int v) { points[v] -= centre; });
+    return points;
 }
 
 HighPass filter_of(const EdgeGraph& graph)
@@ -47,9 +47,9 @@ HighPass filter_of(const EdgeGraph& graph)
     return high_pass(cutoff, bound, high_pass_degree(bound));
 }
 
-Points filtered(const EdgeGraph& graph, const Points& points)
+Points filtered(const EdgeGraph& graph, Points points)
 {
-    return apply(filter_of(graph), graph, points);
+    return apply(filter_of(graph), graph, std::move(points));
 }
 
 Points exact_bands(const EdgeGraph& graph, const Points& points, const std::vector<std::vector<int>>& patches)
@@ -90,29 +90,37 @@ void measure_shapes(PatchReading& reading)
                [&](int k, int) { reading.shapes[k] = patch_shape(reading.band, reading.vertices[k]); });
 }
 
-PatchReading read_with(const Surface& surface, const SolidTopology& topology, const EdgeGraph& graph, const Plan& plan,
-                       const Frame& frame)
+/// The patches alone, not what is in them.
+PatchReading cut_patches(const Points& points, const SolidTopology& topology, const EdgeGraph& graph, const Plan& plan,
+                         const Frame& frame)
 {
     const int count = static_cast<int>(plan.order.size());
-    const bool as_printed = plan.options.as_printed;
     PatchReading reading;
     reading.frame = frame;
-    reading.patches =
-        as_printed ? thesis_patches(surface, frame, layers, count, plan.trim)
-                   : equal_area_patches(surface.points, topology, graph, frame, layers, count / layers, plan.trim);
+    reading.patches = plan.options.as_printed
+                          ? thesis_patches(points, topology, frame, layers, count, plan.trim)
+                          : equal_area_patches(points, topology, graph, frame, layers, count / layers, plan.trim);
     reading.vertices = patch_vertices(reading.patches);
-    const Points local = about(frame.centre, surface.points);
-    reading.band = as_printed ? exact_bands(graph, local, reading.vertices) : filtered(graph, local);
+    return reading;
+}
+
+void read_bands(Points points, const EdgeGraph& graph, const Plan& plan, PatchReading& reading)
+{
+    const bool as_printed = plan.options.as_printed;
+    points = about(reading.frame.centre, std::move(points));
+    reading.band = as_printed ? exact_bands(graph, points, reading.vertices) : filtered(graph, std::move(points));
     measure_shapes(reading);
     reading.threshold = as_printed ? std::log(printed_threshold) : best_threshold(reading.shapes);
-    return reading;
 }
 
 } // namespace
 
 PatchReading read_patches(const Surface& surface, const Plan& plan, const Frame& frame)
 {
-    return read_with(surface, solid_topology(surface), edge_graph(surface), plan, frame);
+    const EdgeGraph graph = edge_graph(surface);
+    PatchReading reading = cut_patches(surface.points, solid_topology(surface), graph, plan, frame);
+    read_bands(surface.points, graph, plan, reading);
+    return reading;
 }
 
 std::vector<int> carrying_patches(const PatchReading& reading, const Plan& plan, AxisFlips flips)
@@ -185,15 +193,52 @@ double least_energy(const Surface& surface)
     return std::pow(std::min(1.57e-3 * bounding_diagonal(surface), 0.285 * mean_edge_length(surface)), 2);
 }
 
-/// Takes moves back by halves where a face would fold; returns how many vertices that befell.
-int guard(const Cover& cover, Points& points)
+/// Some vertices, ascending, and where they were.
+struct Moves {
+    std::vector<int> vertices;
+    Points before;
+};
+
+/// The vertices of some patches, which are about to move.
+/// \param chosen per patch
+Moves moves_of(const PatchReading& reading, const std::vector<char>& chosen, const Points& points)
+{
+    const std::vector<int>& label = reading.patches.label;
+    Moves moves;
+    moves.vertices =
+        indices_where(static_cast<int>(label.size()), [&](int v) { return label[v] >= 0 && chosen[label[v]] != 0; });
+    moves.before.resize(moves.vertices.size());
+    for_each_index(static_cast<int>(moves.vertices.size()),
+                   [&](int i) { moves.before[i] = points[moves.vertices[i]]; });
+    return moves;
+}
+
+void take_back(const Moves& moves, Points& points)
+{
+    for_each_index(static_cast<int>(moves.vertices.size()),
+                   [&](int i) { points[moves.vertices[i]] = moves.before[i]; });
+}
+
+/// Takes moves back by halves where a face would fold, those of earlier rounds too: such vertices are added to the
+/// moves. Returns how many vertices went back.
+int guard(const Cover& cover, Moves& moves, Points& points)
 {
     constexpr int steps = 8;
-    const Points wanted = points;
-    const std::vector<int> step = guard_folds(cover, points, steps, [&](int v, int s) {
-        return Point(cover.points[v] + (wanted[v] - cover.points[v]) * std::exp2(-s));
-    });
-    return static_cast<int>(std::count_if(step.begin(), step.end(), [](int s) { return s > 0; }));
+    std::vector<std::pair<int, Point>> earlier;
+    const std::vector<int>& moved = moves.vertices;
+    const std::vector<int> step =
+        guard_folds(cover, points, folded_faces(cover, points, {}, moved), steps, [&](int v, int s) {
+            if (s == 1 && !std::binary_search(moved.begin(), moved.end(), v))
+                earlier.emplace_back(v, points[v]);
+            return Point((points[v] + cover.points[v]) / 2);
+        });
+    std::sort(earlier.begin(), earlier.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [v, before] : earlier) {
+        const auto place = std::lower_bound(moves.vertices.begin(), moves.vertices.end(), v) - moves.vertices.begin();
+        moves.vertices.insert(moves.vertices.begin() + place, v);
+        moves.before.insert(moves.before.begin() + place, before);
+    }
+    return ordered_sum(static_cast<int>(step.size()), 0, [&](int v) { return step[v] > 0; });
 }
 
 /// Per patch the bit that it is to carry, or -1.
@@ -223,15 +268,24 @@ Points normals_of(const Cover& cover, const std::vector<int>& vertices)
     return normals;
 }
 
-/// Moves the vertices of the patches that lack margin; all but those that fulfil their condition `at_first`.
-void reshape(const PatchReading& reading, const Plan& plan, const std::vector<int>& wanted, const Aim& aim,
-             const Cover& cover, bool at_first, Points& points)
+/// The patches that lack margin; all that carry something `at_first`, but for those their vertices may be where they are.
+std::vector<char> patches_to_shape(const PatchReading& reading, const std::vector<int>& wanted, const Aim& aim,
+                                   bool at_first)
+{
+    std::vector<char> result(wanted.size());
+    for (std::size_t k = 0; k < wanted.size(); ++k)
+        result[k] = wanted[k] >= 0 && (at_first || aim.margin(wanted[k], reading.shapes[k]) < 0);
+    return result;
+}
+
+void reshape(const PatchReading& reading, const Plan& plan, const std::vector<int>& wanted,
+             const std::vector<char>& chosen, const Aim& aim, const Cover& cover, Points& points)
 {
     for_chunks(static_cast<int>(wanted.size()), 1, [&](int k, int) {
+        if (!chosen[k])
+            return;
         const PatchShape& shape = reading.shapes[k];
         const std::vector<int>& vertices = reading.vertices[k];
-        if (wanted[k] < 0 || (!at_first && aim.margin(wanted[k], shape) >= 0))
-            return;
         const bool squash = wanted[k] == 1;
         const double ratio = squash ? aim.ratio : aim.round;
         const Points moves = plan.options.as_printed
@@ -275,24 +329,26 @@ void check_patches(const PatchReading& reading, const std::vector<int>& bits, st
                              std::to_string(vertices_of_a_shape) + " are the fewest that have a shape.");
 }
 
-/// The vertices that are elsewhere.
-std::vector<int> moved_vertices(const Points& before, const Points& now)
+Point rounded(const Point& point)
 {
-    std::vector<int> moved;
-    for (std::size_t v = 0; v < now.size(); ++v)
-        if (now[v] != before[v])
-            moved.push_back(static_cast<int>(v));
-    return moved;
+    return point.cast<float>().cast<double>();
 }
 
 /// Takes up what moves do to the bands; the cuts stay.
-void read_moves(const HighPass& filter, const EdgeGraph& graph, const std::vector<int>& moved, const Points& before,
-                const Points& now, PatchReading& reading)
+void read_moves(const HighPass& filter, const EdgeGraph& graph, const Moves& moves, const Points& points,
+                PatchReading& reading)
 {
-    Points moves;
-    for (const int v : moved)
-        moves.emplace_back(now[v] - before[v]);
-    add_band_of_moves(filter, graph, moved, moves, reading.band);
+    std::vector<int> moved;
+    Points steps;
+    for (std::size_t i = 0; i < moves.vertices.size(); ++i) {
+        const int v = moves.vertices[i];
+        const Point step = rounded(points[v]) - rounded(moves.before[i]);
+        if (step.isZero(0))
+            continue;
+        moved.push_back(v);
+        steps.push_back(step);
+    }
+    add_band_of_moves(filter, graph, moved, steps, reading.band);
     measure_shapes(reading);
 }
 
@@ -316,45 +372,62 @@ Marking embed_spectral(const Cover& cover, const Plan& plan, const Bits& coded, 
                        const Progress& progress)
 {
     const Surface& surface = cover.surface;
-    const EdgeGraph graph = edge_graph(surface);
-    const SolidTopology topology = solid_topology(surface);
-    const Aim aim{options.strength, plan.options.as_printed ? 1 : 1.1, least_energy(surface)};
-    PatchReading reading = read_with(surface, topology, graph, plan, checked_frame(surface.points, topology));
-    const Frame first = reading.frame;
+    const EdgeGraph graph = edge_graph(cover.around, cover.triangles);
+    const bool as_printed = plan.options.as_printed;
+    const Aim aim{options.strength, as_printed ? 1 : 1.1, least_energy(surface)};
+    std::optional<Frame> first;
+    const auto read_anew = [&](Points points) {
+        PatchReading reading;
+        {
+            const SolidTopology topology = solid_topology(surface);
+            const Frame frame = checked_frame(points, topology);
+            reading = cut_patches(points, topology, graph, plan, first ? turned_like(frame, *first) : frame);
+        }
+        read_bands(std::move(points), graph, plan, reading);
+        return reading;
+    };
+    PatchReading reading = read_anew(surface.points);
+    first = reading.frame;
     const auto wanted = [&] { return bits_of_patches(reading, plan, coded); };
     check_patches(reading, wanted(), coded.size());
 
     Marking marking;
     marking.samples_min = poorest(reading, wanted());
     marking.capacity = std::min(most_carriers, plan.options.bits * marking.samples_min / vertices_of_a_shape);
-    marking.kept.points = surface.points;
-    const std::vector<double> before = margins_of(reading, wanted(), aim);
-    if (*std::min_element(before.begin(), before.end()) >= 0) // the mark is there already
+    const auto worst_margin = [&] {
+        const std::vector<double> margins = margins_of(reading, wanted(), aim);
+        return *std::min_element(margins.begin(), margins.end());
+    };
+    Points& points = marking.kept.points = copy_of(surface.points);
+    if (worst_margin() >= 0) // the mark is there already
         return marking;
 
-    Points points = surface.points;
-    const auto propose = [&](int round) {
-        reshape(reading, plan, wanted(), aim, cover, round == 1, points);
-        Proposal proposal;
-        proposal.guarded_vertices = plan.options.as_printed ? 0 : guard(cover, points);
-        proposal.points = points;
-        return proposal;
-    };
     const HighPass filter = filter_of(graph);
-    Points last = surface.points; // that were read
-    const auto read = [&](const Points& stored, int) {
-        const std::vector<int> moved = moved_vertices(last, stored);
-        if (plan.options.as_printed || moved.size() > few * stored.size())
-            reading = read_with({stored, surface.triangles}, topology, graph, plan,
-                                turned_like(checked_frame(stored, topology), first));
-        else
-            read_moves(filter, graph, moved, last, stored, reading);
-        last = stored;
-        return margins_of(reading, wanted(), aim);
-    };
-    LoopResult loop = closed_loop(options.max_rounds, rounded_to_float, propose, read, "Shaping patches", progress);
-    marking.kept = std::move(loop.kept);
-    marking.rounds = loop.rounds;
+    double best = -std::numeric_limits<double>::infinity();
+    std::vector<Moves> since_best;
+    for (int round = 1; round <= options.max_rounds && best < 0; ++round) {
+        report(progress, 20 + 60 * (round - 1) / options.max_rounds, "Shaping patches");
+        const std::vector<char> chosen = patches_to_shape(reading, wanted(), aim, round == 1);
+        Moves moves = moves_of(reading, chosen, points);
+        reshape(reading, plan, wanted(), chosen, aim, cover, points);
+        const int guarded = as_printed ? 0 : guard(cover, moves, points);
+        if (as_printed || round == 1 || moves.vertices.size() > few * points.size()) {
+            if (round == 1)
+                moves = {}; // there is nothing better to go back to
+            reading = {};
+            reading = read_anew(rounded_to_float(points));
+        } else
+            read_moves(filter, graph, moves, points, reading);
+        since_best.push_back(std::move(moves));
+        marking.rounds = round;
+        if (const double worst = worst_margin(); worst > best || round == 1) {
+            best = worst;
+            marking.kept.guarded_vertices = guarded;
+            since_best.clear();
+        }
+    }
+    for (; !since_best.empty(); since_best.pop_back())
+        take_back(since_best.back(), points);
     return marking;
 }
 
