@@ -5,6 +5,7 @@
 #include "../base/surface.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 namespace vcg_ext {
@@ -13,9 +14,16 @@ namespace vcg_ext {
 struct Cover {
     /// \param unmarked must outlive the cover
     explicit Cover(const Surface& unmarked, std::vector<char> fixed = {})
+        : Cover(
+              unmarked, std::move(fixed),
+              std::make_shared<VertexFaces>(vertex_faces(static_cast<int>(unmarked.points.size()), unmarked.triangles)))
+    {
+    }
+
+    /// \param faces around its vertices
+    Cover(const Surface& unmarked, std::vector<char> fixed, std::shared_ptr<const VertexFaces> faces)
         : surface(unmarked), points(surface.points), triangles(surface.triangles), held(std::move(fixed)),
-          around(vertex_faces(static_cast<int>(points.size()), triangles)), normals(triangles.size()),
-          areas(triangles.size())
+          shared(std::move(faces)), around(*shared), normals(triangles.size()), areas(triangles.size())
     {
         for_each_index(static_cast<int>(triangles.size()), [this](int f) {
             prefetch_corners(points, triangles, f);
@@ -29,7 +37,8 @@ struct Cover {
     const Points& points;
     const std::vector<Triangle>& triangles;
     std::vector<char> held; ///< per vertex whether it must not slide; those beyond the last may
-    VertexFaces around;
+    std::shared_ptr<const VertexFaces> shared;
+    const VertexFaces& around; ///< the shared ones
     Points normals;            ///< of faces, unit; zero where a face has no area
     std::vector<double> areas; ///< of faces, doubled
 

@@ -6,6 +6,7 @@
 #include "../base/stopwatch.h"
 #include "../base/text.h"
 #include "../geometry/body.h"
+#include "../geometry/normals.h"
 #include "../geometry/size.h"
 #include "../geometry/solid.h"
 #include "../method/methods.h"
@@ -19,6 +20,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -94,32 +96,30 @@ double self_check(const Body& marked, const Key& key, const EmbedOptions& option
 }
 
 /// All layers of the method, the one on top of the other, so far as each leaves those below it readable.
-/// \param check of positions with `result.layers` on them: the part of the carriers that hold their bits
+/// \param body   `around` are the faces around its sites
+/// \param check  of positions with `result.layers` on them: the part of the carriers that hold their bits
 /// \return the positions, which are those that were checked last
-Points put_on(const Cover& cover, const Key& key, const EmbedOptions& options, const Bits& coded, EmbedReport& result,
+Points put_on(const Body& body, const std::shared_ptr<const VertexFaces>& around, const std::vector<char>& held,
+              const Key& key, const EmbedOptions& options, const Bits& coded, EmbedReport& result,
               const std::function<double(const Points&)>& check, const Progress& progress)
 {
     const MethodRow& wanted = row_of(options.carriers.method);
-    Points first;
-    Surface marked; // the first layer, as the cover of those above
-    std::optional<Cover> below;
+    Surface first; // with the first layer: what those above cover
     std::string refusals;
     for (std::size_t i = 0; i < wanted.layers.size(); ++i) {
         const auto& [method, strength] = wanted.layers[i];
-        if (i == 1) {
-            marked = {first, cover.triangles};
-            below.emplace(marked, cover.held);
-        }
         try {
-            Marking marking =
-                mark(below ? *below : cover, key, row_of(method), options, coded, strength, result.trim, progress);
+            Marking marking = mark(Cover(i == 0 ? body.surface : first, held, around), key, row_of(method), options,
+                                   coded, strength, result.trim, progress);
             result.layers.push_back(method);
             if (i > 0 && check(marking.kept.points) < 1)
                 throw Error("It would not read back, or spoil what lies below.");
             take_up(marking, result);
             if (i > 0)
-                return marking.kept.points;
-            first = std::move(marking.kept.points);
+                return std::move(marking.kept.points);
+            first.points = std::move(marking.kept.points);
+            if (wanted.layers.size() > 1)
+                first.triangles = body.surface.triangles;
         } catch (const Cancelled&) {
             throw;
         } catch (const Error& error) {
@@ -133,9 +133,9 @@ Points put_on(const Cover& cover, const Key& key, const EmbedOptions& options, c
         result.warnings.push_back(std::string("Only ") + name(result.layers.front()) +
                                   " fits on this mesh, so strong noise and coarse quantization will erase the mark." +
                                   refusals);
-    if (check(first) < 1)
+    if (check(first.points) < 1)
         throw DoesNotFit("The blind self-check did not read every bit back.", result.capacity);
-    return first;
+    return std::move(first.points);
 }
 
 std::vector<char> held_sites(const Body& body, const std::vector<char>& held)
@@ -236,7 +236,9 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     result.carriers = options.carriers.bits;
     result.pieces = body.pieces;
     result.loose_pieces = body.loose_pieces;
-    const Cover cover(body.surface, held_sites(body, options.held));
+    const Surface& sites = body.surface;
+    const auto around =
+        std::make_shared<VertexFaces>(vertex_faces(static_cast<int>(sites.points.size()), sites.triangles));
     const bool floats = options.placement.storage == Storage::Float;
     const auto as_stored = [&](const Points& placed) {
         Points points = with_sites_at(body, surface.points, placed);
@@ -251,8 +253,8 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     };
     Points marked;
     const auto check_marked = [&] {
-        if (std::optional<Points> sites = sites_moved(body, marked)) {
-            const Moved moved(body, std::move(*sites));
+        if (std::optional<Points> there = sites_moved(body, marked)) {
+            const Moved moved(body, std::move(*there));
             check_surface(body.surface);
             return self_check(body, key, options, result, progress);
         }
@@ -268,18 +270,19 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
         result.seconds["check"] += watch.lap();
         return result.detection_ratio;
     };
-    Points stored = put_on(cover, key, options, result.bits, result, check, progress);
+    Points stored =
+        put_on(body, around, held_sites(body, options.held), key, options, result.bits, result, check, progress);
     if (floats)
         stored = rounded_to_float(stored);
 
     report(progress, 95, "Measuring");
     result.moved_vertices = moved_count(surface.points, marked);
     result.max_displacement = max_displacement(surface.points, marked);
-    result.mrms = local_mrms(cover.points, stored, cover.triangles, cover.around);
+    result.mrms = local_mrms(sites.points, stored, sites.triangles, *around);
     result.diagonal = bounding_box(body.surface.points).diagonal().norm();
     result.mrms_relative = result.mrms / result.diagonal;
     if (method.is_smooth)
-        result.plane_bend = largest_bend(cover.normals, stored, cover.triangles, cover.around);
+        result.plane_bend = largest_bend(face_normals(sites.points, sites.triangles), stored, sites.triangles, *around);
     result.recipe = recipe_of(options);
     warn(options, result);
     warn_of_shape(body, result);
