@@ -95,31 +95,48 @@ double self_check(const Body& marked, const Key& key, const EmbedOptions& option
     return worst;
 }
 
+/// What two hold changes places as long as this lives.
+class Exchange {
+public:
+    Exchange(Points& one, Points& other) : one_(one), other_(other) { one_.swap(other_); }
+    ~Exchange() { one_.swap(other_); }
+    Exchange(const Exchange&) = delete;
+    Exchange& operator=(const Exchange&) = delete;
+
+private:
+    Points& one_;
+    Points& other_;
+};
+
 /// All layers of the method, the one on top of the other, so far as each leaves those below it readable.
-/// \param body   `around` are the faces around its sites
+/// \param body   as it is again afterwards; `around` are the faces around its sites
 /// \param check  of positions with `result.layers` on them: the part of the carriers that hold their bits
 /// \return the positions, which are those that were checked last
-Points put_on(const Body& body, const std::shared_ptr<const VertexFaces>& around, const std::vector<char>& held,
+Points put_on(Body& body, const std::shared_ptr<const VertexFaces>& around, const std::vector<char>& held,
               const Key& key, const EmbedOptions& options, const Bits& coded, EmbedReport& result,
               const std::function<double(const Points&)>& check, const Progress& progress)
 {
     const MethodRow& wanted = row_of(options.carriers.method);
-    Surface first; // with the first layer: what those above cover
+    Points first; // with the first layer: what those above cover
     std::string refusals;
+    const auto mark_with = [&](const MethodRow& method, double strength) {
+        return mark(Cover(body.surface, held, around), key, method, options, coded, strength, result.trim, progress);
+    };
+    const auto mark_on_first = [&](const MethodRow& method, double strength) {
+        const Exchange exchange(body.surface.points, first);
+        return mark_with(method, strength);
+    };
     for (std::size_t i = 0; i < wanted.layers.size(); ++i) {
         const auto& [method, strength] = wanted.layers[i];
         try {
-            Marking marking = mark(Cover(i == 0 ? body.surface : first, held, around), key, row_of(method), options,
-                                   coded, strength, result.trim, progress);
+            Marking marking = i == 0 ? mark_with(row_of(method), strength) : mark_on_first(row_of(method), strength);
             result.layers.push_back(method);
             if (i > 0 && check(marking.kept.points) < 1)
                 throw Error("It would not read back, or spoil what lies below.");
             take_up(marking, result);
             if (i > 0)
                 return std::move(marking.kept.points);
-            first.points = std::move(marking.kept.points);
-            if (wanted.layers.size() > 1)
-                first.triangles = body.surface.triangles;
+            first = std::move(marking.kept.points);
         } catch (const Cancelled&) {
             throw;
         } catch (const Error& error) {
@@ -133,9 +150,9 @@ Points put_on(const Body& body, const std::shared_ptr<const VertexFaces>& around
         result.warnings.push_back(std::string("Only ") + name(result.layers.front()) +
                                   " fits on this mesh, so strong noise and coarse quantization will erase the mark." +
                                   refusals);
-    if (check(first.points) < 1)
+    if (check(first) < 1)
         throw DoesNotFit("The blind self-check did not read every bit back.", result.capacity);
-    return std::move(first.points);
+    return first;
 }
 
 std::vector<char> held_sites(const Body& body, const std::vector<char>& held)
