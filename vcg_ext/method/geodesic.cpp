@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace vcg_ext {
@@ -53,13 +54,35 @@ Surface closed(const SolidTopology& topology, const Points& vertices)
     return {solid_points(topology, vertices), topology.triangles};
 }
 
+/// A cover with its holes filled: itself where it has none.
+class Filled {
+public:
+    Filled(const Cover& cover, const SolidTopology& topology) : cover_(cover)
+    {
+        if (topology.triangles.size() == cover.triangles.size())
+            return;
+        surface_ = closed(topology, cover.points);
+        own_.emplace(surface_, cover.held);
+    }
+
+    Filled(const Filled&) = delete;
+    Filled& operator=(const Filled&) = delete;
+
+    [[nodiscard]] const Cover& cover() const { return own_ ? *own_ : cover_; }
+
+private:
+    const Cover& cover_;
+    Surface surface_;
+    std::optional<Cover> own_;
+};
+
 /// The distance from the source as embed_scalar() wants it.
 class Distance {
 public:
     Distance(const Cover& cover, const Plan& plan, FrontScheme scheme)
-        : topology_(solid_topology(cover.surface)), closed_(closed(topology_, cover.points)),
-          axes_(principal_frame(closed_.points, topology_)), cover_(closed_, cover.held),
-          fans_(fans_of(cover_.around, cover_.triangles)), plan_(plan), scheme_(scheme)
+        : topology_(solid_topology(cover.surface)), filled_(cover, topology_), cover_(filled_.cover()),
+          axes_(principal_frame(cover_.points, topology_)), fans_(fans_of(cover_.around, cover_.triangles)),
+          plan_(plan), scheme_(scheme)
     {
     }
 
@@ -92,7 +115,7 @@ public:
     {
         frame_ = frame;
         std::vector<double> distances = distances_from(frame.source, cover_.points, cover_.triangles, fans_);
-        arrivals_ = arrivals_of(distances, frame.source, closed_, cover_.around);
+        arrivals_ = arrivals_of(distances, frame.source, cover_.surface, cover_.around);
         strips_ = strips_in(frame, std::move(distances));
     }
 
@@ -136,9 +159,9 @@ private:
     }
 
     SolidTopology topology_;
-    Surface closed_;
-    Frame axes_;  ///< of the cover
-    Cover cover_; ///< the closed surface
+    Filled filled_;
+    const Cover& cover_; ///< the closed surface
+    Frame axes_;         ///< of the cover
     Fans fans_;
     const Plan& plan_;
     FrontScheme scheme_;
