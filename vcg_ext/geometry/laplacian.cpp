@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "laplacian.h"
 
+#include "../base/parallel.h"
+
 #include <algorithm>
 
 namespace vcg_ext {
 
 double laplacian_bound(const EdgeGraph& graph)
 {
-    int bound = 0;
-    for (int v = 0; v < graph.vertices(); ++v)
+    return ordered_maximum(graph.vertices(), 0, [&](int v) {
+        int most = 0;
         for (const int* w = graph.begin(v); w != graph.end(v); ++w)
-            bound = std::max(bound, graph.degree(v) + graph.degree(*w));
-    return bound;
+            most = std::max(most, graph.degree(*w));
+        return most > 0 ? graph.degree(v) + most : 0;
+    });
 }
 
 } // namespace vcg_ext
