@@ -85,11 +85,10 @@ private:
     std::vector<double> area_;
 };
 
-/// Calls `visit(centroid, area)` for the 16 equal parts of a triangle.
-template <class Visit>
+/// Calls `visit(centroid, area)` for the n^2 equal parts of a triangle.
+template <int n, class Visit>
 void visit_parts(const Points& points, const Triangle& t, const Visit& visit)
 {
-    constexpr int n = 4; // parts an edge
     const double area = scaled_normal(points, t).norm() / 2 / (n * n);
     const Point& origin = points[t[0]];
     const Point a = (points[t[1]] - origin) / n;
@@ -108,13 +107,16 @@ std::vector<AreaProfile> area_profiles(const Points& points, const std::vector<T
                                        const std::vector<AreaProfile>& empty, const Add& add)
 {
     constexpr int pieces = 16;
+    constexpr int many = 500000; // where triangles are so small, an eighth of one more or less moves no cut
     const int count = static_cast<int>(triangles.size());
     const int chunk = (count + pieces - 1) / pieces;
     std::vector<std::vector<AreaProfile>> partial(pieces, empty);
     for_chunks(count, chunk, [&](int begin, int end) {
         std::vector<AreaProfile>& mine = partial[begin / chunk];
-        for (int f = begin; f < end; ++f)
-            visit_parts(points, triangles[f], [&](const Point& p, double area) { add(mine, p, area); });
+        for (int f = begin; f < end; ++f) {
+            const auto take = [&](const Point& p, double area) { add(mine, p, area); };
+            count < many ? visit_parts<4>(points, triangles[f], take) : visit_parts<2>(points, triangles[f], take);
+        }
     });
     std::vector<AreaProfile> total = empty;
     for (const std::vector<AreaProfile>& piece : partial)
