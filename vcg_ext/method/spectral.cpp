@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 namespace vcg_ext {
@@ -219,6 +220,27 @@ void take_back(const Moves& moves, Points& points)
                    [&](int i) { points[moves.vertices[i]] = moves.before[i]; });
 }
 
+/// Adds vertices that are not among the moved ones. \param more ascending
+void take_in(std::vector<std::pair<int, Point>> more, Moves& moves)
+{
+    auto& [vertices, before] = moves;
+    std::size_t old = vertices.size();
+    std::size_t to = old + more.size();
+    vertices.resize(to);
+    before.resize(to);
+    while (!more.empty()) { // from the last on
+        --to;
+        if (old > 0 && vertices[old - 1] > more.back().first) {
+            --old;
+            vertices[to] = vertices[old];
+            before[to] = before[old];
+        } else {
+            std::tie(vertices[to], before[to]) = more.back();
+            more.pop_back();
+        }
+    }
+}
+
 /// Takes moves back by halves where a face would fold, those of earlier rounds too: such vertices are added to the
 /// moves. Returns how many vertices went back.
 int guard(const Cover& cover, Moves& moves, Points& points)
@@ -233,11 +255,7 @@ int guard(const Cover& cover, Moves& moves, Points& points)
             return Point((points[v] + cover.points[v]) / 2);
         });
     std::sort(earlier.begin(), earlier.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (const auto& [v, before] : earlier) {
-        const auto place = std::lower_bound(moves.vertices.begin(), moves.vertices.end(), v) - moves.vertices.begin();
-        moves.vertices.insert(moves.vertices.begin() + place, v);
-        moves.before.insert(moves.before.begin() + place, before);
-    }
+    take_in(std::move(earlier), moves);
     return ordered_sum(static_cast<int>(step.size()), 0, [&](int v) { return step[v] > 0; });
 }
 
@@ -268,7 +286,7 @@ Points normals_of(const Cover& cover, const std::vector<int>& vertices)
     return normals;
 }
 
-/// The patches that lack margin; all that carry something `at_first`, but for those their vertices may be where they are.
+/// Per patch whether it lacks margin; `at_first` whether it carries something: least_change() leaves it where all is well.
 std::vector<char> patches_to_shape(const PatchReading& reading, const std::vector<int>& wanted, const Aim& aim,
                                    bool at_first)
 {
