@@ -164,19 +164,6 @@ std::vector<char> held_sites(const Body& body, const std::vector<char>& held)
     return result;
 }
 
-/// For as long as this lives the body's sites are elsewhere.
-class Moved {
-public:
-    Moved(Body& body, Points sites) : body_(body), other_(std::move(sites)) { body_.surface.points.swap(other_); }
-    ~Moved() { body_.surface.points.swap(other_); }
-    Moved(const Moved&) = delete;
-    Moved& operator=(const Moved&) = delete;
-
-private:
-    Body& body_;
-    Points other_; ///< what it has not now
-};
-
 /// What a reader has to set, in one sentence.
 std::string recipe_of(const EmbedOptions& options)
 {
@@ -271,7 +258,7 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     Points marked;
     const auto check_marked = [&] {
         if (std::optional<Points> there = sites_moved(body, marked)) {
-            const Moved moved(body, std::move(*there));
+            const Exchange exchange(body.surface.points, *there);
             check_surface(body.surface);
             return self_check(body, key, options, result, progress);
         }
