@@ -78,8 +78,10 @@ public:
     template <class Elements>
     Present(const Elements& elements, int count) : count_(count)
     {
-        if (count < int(elements.size()))
-            numbers_ = vcg_ext::indices_where(int(elements.size()), [&](int i) { return !elements[i].IsD(); });
+        if (count == int(elements.size()))
+            return;
+        numbers_ = vcg_ext::indices_where(int(elements.size()), [&](int i) { return !elements[i].IsD(); });
+        count_ = int(numbers_.size());
     }
 
     int count() const { return count_; }

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -247,11 +248,14 @@ int guard(const Cover& cover, Moves& moves, Points& points)
 {
     constexpr int steps = 8;
     std::vector<std::pair<int, Point>> earlier;
+    std::mutex adding; // vertices go back on all cores
     const std::vector<int>& moved = moves.vertices;
     const std::vector<int> step =
         guard_folds(cover, points, folded_faces(cover, points, {}, moved), steps, [&](int v, int s) {
-            if (s == 1 && !std::binary_search(moved.begin(), moved.end(), v))
+            if (s == 1 && !std::binary_search(moved.begin(), moved.end(), v)) {
+                const std::lock_guard<std::mutex> lock(adding);
                 earlier.emplace_back(v, points[v]);
+            }
             return Point((points[v] + cover.points[v]) / 2);
         });
     std::sort(earlier.begin(), earlier.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
