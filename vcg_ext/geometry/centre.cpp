@@ -40,7 +40,7 @@ Point area_centre(const Points& points, const std::vector<Triangle>& triangles, 
 {
     if (triangles.empty())
         throw Error("The mesh has no faces, so it has no surface to mark. Reconstruct the surface first.");
-    const Point near = points[triangles[0][0]];
+    const Point& near = points[triangles[0][0]];
     Moments sum = moments_about(near, points, triangles);
     sum += moments_about(near, points, fans);
     if (!(sum.area > 0))
