@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/load.h"
 #include "support/shapes.h"
+#include "vcg_ext/base/parallel.h"
 #include "vcg_ext/key/key.h"
 #include "vcg_ext/key/stream.h"
 #include "vcg_ext/placement/fold_guard.h"
@@ -43,6 +44,24 @@ TEST(GuardFolds, LeavesNoFaceFolded)
         untouched += step[v] == 0;
     }
     EXPECT_GT(untouched, 0);
+}
+
+TEST(GuardFolds, EndsTheSameOnAnyNumberOfThreads)
+{
+    const Surface surface = load("bunny00.off");
+    const Cover cover(surface);
+    const Points best = shaken(surface, 0.005 * bounding_diagonal(surface));
+    const auto guarded = [&](int threads) {
+        set_threads(threads);
+        Points points = best;
+        const std::vector<int> step = guard_folds(cover, points, 6, [&](int v, int s) -> Point {
+            return surface.points[v] + (best[v] - surface.points[v]) / (1 << s);
+        });
+        set_threads(0);
+        EXPECT_GT(std::count_if(step.begin(), step.end(), [](int s) { return s > 0; }), 10000); // more than one chunk
+        return points;
+    };
+    EXPECT_EQ(guarded(1), guarded(4));
 }
 
 TEST(FoldedFaces, AreThoseOfAllWhereOnlySomeVerticesMoved)
