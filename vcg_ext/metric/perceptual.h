@@ -16,9 +16,10 @@ namespace vcg_ext {
 /// equal meshes, about 1 where they have nothing in common. S reaches 2 where one's curvature falls as the other's
 /// rises: so at most 2.4^(1/3) = 1.34.
 ///
-/// For each vertex (of more than a million, for at least 524,288 evenly chosen ones), the window is what is connected to it within a sphere of radius 0.005 of the longest side of the
-/// bounding box: vertices, and the places where edges leave the sphere, with the curvature interpolated. Of mean,
-/// standard deviation and covariance of the window's curvatures on both meshes,
+/// For each vertex (of more than a million, for at least 524,288 evenly chosen ones), the window is what is connected
+/// to it within a sphere of radius 0.005 of the longest side of the bounding box: vertices, and the places where edges
+/// leave the sphere, with the curvature interpolated. Of mean, standard deviation and covariance of the window's
+/// curvatures on both meshes,
 ///
 ///     L = |m - m'| / (max(m, m') + c)    C = |s - s'| / (max(s, s') + c)    S = |s s' - cov| / (s s' + c^2)
 ///     local = (0.4 L^3 + 0.4 C^3 + 0.2 S^3)^(1/3)        MSDM = (mean of local^3)^(1/3)

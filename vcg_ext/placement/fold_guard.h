@@ -13,8 +13,8 @@ namespace vcg_ext {
 /// folded: so this ends, and the order of vertices or threads has no part in the result.
 ///
 /// \param placed  positions at step 0; on return the guarded ones
-/// \param retreat the position of a vertex at step 1 to `steps` - 1, by these alone; at `steps` it is the cover's own.
-///                Several threads call it, for other vertices
+/// \param retreat the position of a vertex at step 1 to `steps` - 1, by these and its own place in `placed` alone; at
+///                `steps` it is the cover's own. Several threads call it, for different vertices
 /// \param bad     the faces that are folded at step 0
 /// \return per vertex the step it ended at
 std::vector<int> guard_folds(const Cover& cover, Points& placed, std::vector<int> bad, int steps,
