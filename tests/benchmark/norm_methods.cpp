@@ -22,7 +22,8 @@ EmbedOptions options_of(Method method)
     EmbedOptions options;
     options.carriers.method = method;
     options.carriers.bits = 64;
-    options.message = read_message("bits:0000000100100011010001010110011110001001101010111100110111101111");
+    options.message = read_message("hex:0123456789abcdef");
+    options.message.kind = Kind::Bits; // not coded, as in the thesis
     options.carriers.trim = 0.1;
     return options;
 }

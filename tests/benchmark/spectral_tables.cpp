@@ -33,7 +33,8 @@ EmbedOptions options_of(Method method, Statistic statistic, double strength)
     options.carriers.method = method;
     options.carriers.statistic = statistic;
     options.carriers.bits = 64;
-    options.message = read_message("bits:0000000100100011010001010110011110001001101010111100110111101111");
+    options.message = read_message("hex:0123456789abcdef");
+    options.message.kind = Kind::Bits; // not coded, as in the thesis
     options.placement.strength = strength;
     options.carriers.trim = 0.1; // as in the thesis' tables
     return options;
