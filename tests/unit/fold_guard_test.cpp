@@ -34,16 +34,20 @@ TEST(GuardFolds, LeavesNoFaceFolded)
         return surface.points[v] + (best[v] - surface.points[v]) / (1 << step);
     };
     ASSERT_FALSE(folded_faces(cover, points).empty());
-    const std::vector<int> step = guard_folds(cover, points, 6, retreat);
+    const Moves back = guard_folds(cover, points, 6, retreat);
     EXPECT_TRUE(folded_faces(cover, points).empty());
 
-    int untouched = 0;
-    for (int v = 0; v < static_cast<int>(points.size()); ++v) {
-        const Point expected = step[v] == 0 ? best[v] : step[v] == 6 ? surface.points[v] : retreat(v, step[v]);
-        EXPECT_EQ(points[v], expected);
-        untouched += step[v] == 0;
+    EXPECT_GT(back.vertices.size(), 0);
+    EXPECT_LT(back.vertices.size(), points.size());
+    Points undone = points;
+    take_back(back, undone);
+    EXPECT_EQ(undone, best); // so all others stay where they were placed
+    for (const int v : back.vertices) {
+        bool on_its_way = points[v] == surface.points[v];
+        for (int step = 1; step < 6; ++step)
+            on_its_way |= points[v] == retreat(v, step);
+        EXPECT_TRUE(on_its_way);
     }
-    EXPECT_GT(untouched, 0);
 }
 
 TEST(GuardFolds, EndsTheSameOnAnyNumberOfThreads)
@@ -54,11 +58,11 @@ TEST(GuardFolds, EndsTheSameOnAnyNumberOfThreads)
     const auto guarded = [&](int threads) {
         set_threads(threads);
         Points points = best;
-        const std::vector<int> step = guard_folds(cover, points, 6, [&](int v, int s) -> Point {
+        const Moves back = guard_folds(cover, points, 6, [&](int v, int s) -> Point {
             return surface.points[v] + (best[v] - surface.points[v]) / (1 << s);
         });
         set_threads(0);
-        EXPECT_GT(std::count_if(step.begin(), step.end(), [](int s) { return s > 0; }), 10000); // more than one chunk
+        EXPECT_GT(back.vertices.size(), 10000); // more than one chunk
         return points;
     };
     EXPECT_EQ(guarded(1), guarded(4));
@@ -93,9 +97,32 @@ TEST(GuardFolds, LeavesGoodMovesAlone)
         p *= 1.1;
     const Points scaled = points;
     const auto never = [](int, int) -> Point { throw std::logic_error("no step is due"); };
-    const std::vector<int> step = guard_folds(cover, points, 6, never);
+    EXPECT_TRUE(guard_folds(cover, points, 6, never).vertices.empty());
     EXPECT_EQ(points, scaled);
-    EXPECT_EQ(step, std::vector<int>(points.size(), 0));
+}
+
+TEST(Moves, JoinedAreTakenBackAtOnce)
+{
+    Stream stream = Key("moves").stream("test");
+    const Points before(100, Point(1, 2, 3));
+    Points points = before;
+    const auto move_some = [&] {
+        Moves moves;
+        for (int v = 0; v < 100; ++v)
+            if (stream.below(3) == 0) {
+                moves.vertices.push_back(v);
+                moves.before.push_back(points[v]);
+                points[v] += Point(1, 0, static_cast<double>(stream.below(10)));
+            }
+        return moves;
+    };
+    const Moves first = move_some();
+    const Moves second = move_some();
+    const Moves both = joined(first, second);
+    EXPECT_TRUE(std::is_sorted(both.vertices.begin(), both.vertices.end()));
+    EXPECT_LT(both.vertices.size(), first.vertices.size() + second.vertices.size());
+    take_back(both, points);
+    EXPECT_EQ(points, before);
 }
 
 TEST(Folded, SeesATurnAndAFlatteningButNoFaceWithoutAnArea)

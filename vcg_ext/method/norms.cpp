@@ -133,8 +133,7 @@ private:
                 return radial_point(best_[v] + (cho - best_[v]) * part, centre_, targets_[v]);
             return old + (cho - old) * std::exp2(on_sphere - step);
         };
-        const std::vector<int> step = guard_folds(cover_, points, folded_, steps, retreat);
-        return static_cast<int>(std::count_if(step.begin(), step.end(), [](int s) { return s > 0; }));
+        return static_cast<int>(guard_folds(cover_, points, folded_, steps, retreat).vertices.size());
     }
 
     const Cover& cover_;

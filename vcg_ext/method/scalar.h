@@ -131,17 +131,22 @@ Marking embed_scalar(Scalar& scalar, const Cover& cover, const Plan& plan, const
     // Where folds hold vertices back, a push brings but a share of what it asks for; the next one reckons with that.
     std::vector<double> pushed(count, 0);
     std::vector<double> last(count, 0); // margins
-    const auto propose = [&](int) { return scalar.place(aims->at(targets)); };
-    const auto read = [&](const Points& stored, int round) {
+    Proposal placed;
+    std::vector<double> margins;
+    const auto place_and_read = [&](int round) {
+        placed = {}; // before the next one takes as much
+        placed = scalar.place(aims->at(targets));
+        const Points stored = store.round(placed.points);
         const auto frame = scalar.find(stored);
-        std::vector<double> margins = margins_of(scalar.read(stored, frame));
+        margins = margins_of(scalar.read(stored, frame));
+        const double worst = *std::min_element(margins.begin(), margins.end());
         if (round == 1) { // later rounds push single carriers in a frame that holds still
-            if (*std::min_element(margins.begin(), margins.end()) < 0) {
+            if (worst < 0) {
                 scalar.aim(scalar.on_cover(stored, frame));
                 carriers = scalar.cut(count);
                 aim_at_targets();
             }
-            return margins;
+            return worst;
         }
         for (int k = 0; k < count; ++k) {
             const double share = pushed[k] > 0 ? std::clamp((margins[k] - last[k]) / pushed[k], 0.25, 1.0) : 1;
@@ -150,17 +155,18 @@ Marking embed_scalar(Scalar& scalar, const Cover& cover, const Plan& plan, const
             pushed[k] = std::abs(target - std::exchange(targets[k], target));
         }
         last = margins;
-        return margins;
+        return worst;
     };
-    LoopResult loop = closed_loop(options.max_rounds, store.round, propose, read, "Placing vertices", progress);
-    const auto wrong = std::count_if(loop.margins.begin(), loop.margins.end(),
-                                     [alpha](double margin) { return margin <= -enough * alpha; });
+    std::ptrdiff_t wrong = 0;
+    marking.rounds = closed_loop(options.max_rounds, "Placing vertices", progress, place_and_read, [&] {
+        marking.kept = std::move(placed);
+        wrong =
+            std::count_if(margins.begin(), margins.end(), [alpha](double margin) { return margin <= -enough * alpha; });
+    });
     if (wrong > 0)
         throw DoesNotFit(std::to_string(wrong) + " of the " + std::to_string(count) +
                              " carriers could not be read back.",
                          marking.capacity);
-    marking.kept = std::move(loop.kept);
-    marking.rounds = loop.rounds;
     return marking;
 }
 

@@ -8,13 +8,12 @@
 #include "../geometry/eigenbasis.h"
 #include "../geometry/size.h"
 #include "../placement/fold_guard.h"
+#include "closed_loop.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 namespace vcg_ext {
@@ -195,12 +194,6 @@ double least_energy(const Surface& surface)
     return std::pow(std::min(1.57e-3 * bounding_diagonal(surface), 0.285 * mean_edge_length(surface)), 2);
 }
 
-/// Some vertices, ascending, and where they were.
-struct Moves {
-    std::vector<int> vertices;
-    Points before;
-};
-
 /// The vertices of some patches, which are about to move.
 /// \param chosen per patch
 Moves moves_of(const PatchReading& reading, const std::vector<char>& chosen, const Points& points)
@@ -215,52 +208,15 @@ Moves moves_of(const PatchReading& reading, const std::vector<char>& chosen, con
     return moves;
 }
 
-void take_back(const Moves& moves, Points& points)
-{
-    for_each_index(static_cast<int>(moves.vertices.size()),
-                   [&](int i) { points[moves.vertices[i]] = moves.before[i]; });
-}
-
-/// Adds vertices that are not among the moved ones. \param more ascending
-void take_in(std::vector<std::pair<int, Point>> more, Moves& moves)
-{
-    auto& [vertices, before] = moves;
-    std::size_t old = vertices.size();
-    std::size_t to = old + more.size();
-    vertices.resize(to);
-    before.resize(to);
-    while (!more.empty()) { // from the last on
-        --to;
-        if (old > 0 && vertices[old - 1] > more.back().first) {
-            --old;
-            vertices[to] = vertices[old];
-            before[to] = before[old];
-        } else {
-            std::tie(vertices[to], before[to]) = more.back();
-            more.pop_back();
-        }
-    }
-}
-
 /// Takes moves back by halves where a face would fold, those of earlier rounds too: such vertices are added to the
 /// moves. Returns how many vertices went back.
 int guard(const Cover& cover, Moves& moves, Points& points)
 {
     constexpr int steps = 8;
-    std::vector<std::pair<int, Point>> earlier;
-    std::mutex adding; // vertices go back on all cores
-    const std::vector<int>& moved = moves.vertices;
-    const std::vector<int> step =
-        guard_folds(cover, points, folded_faces(cover, points, {}, moved), steps, [&](int v, int s) {
-            if (s == 1 && !std::binary_search(moved.begin(), moved.end(), v)) {
-                const std::lock_guard<std::mutex> lock(adding);
-                earlier.emplace_back(v, points[v]);
-            }
-            return Point((points[v] + cover.points[v]) / 2);
-        });
-    std::sort(earlier.begin(), earlier.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    take_in(std::move(earlier), moves);
-    return ordered_sum(static_cast<int>(step.size()), 0, [&](int v) { return step[v] > 0; });
+    const Moves back = guard_folds(cover, points, folded_faces(cover, points, {}, moves.vertices), steps,
+                                   [&](int v, int) -> Point { return (points[v] + cover.points[v]) / 2; });
+    moves = joined(moves, back);
+    return static_cast<int>(back.vertices.size());
 }
 
 /// Per patch the bit that it is to carry, or -1.
@@ -425,14 +381,13 @@ Marking embed_spectral(const Cover& cover, const Plan& plan, const Bits& coded, 
         return marking;
 
     const HighPass filter = filter_of(graph);
-    double best = -std::numeric_limits<double>::infinity();
+    int guarded = 0;
     std::vector<Moves> since_best;
-    for (int round = 1; round <= options.max_rounds && best < 0; ++round) {
-        report(progress, 20 + 60 * (round - 1) / options.max_rounds, "Shaping patches");
+    const auto shape_and_read = [&](int round) {
         const std::vector<char> chosen = patches_to_shape(reading, wanted(), aim, round == 1);
         Moves moves = moves_of(reading, chosen, points);
         reshape(reading, plan, wanted(), chosen, aim, cover, points);
-        const int guarded = as_printed ? 0 : guard(cover, moves, points);
+        guarded = as_printed ? 0 : guard(cover, moves, points);
         if (as_printed || round == 1 || moves.vertices.size() > few * points.size()) {
             if (round == 1)
                 moves = {}; // there is nothing better to go back to
@@ -441,13 +396,12 @@ Marking embed_spectral(const Cover& cover, const Plan& plan, const Bits& coded, 
         } else
             read_moves(filter, graph, moves, points, reading);
         since_best.push_back(std::move(moves));
-        marking.rounds = round;
-        if (const double worst = worst_margin(); worst > best || round == 1) {
-            best = worst;
-            marking.kept.guarded_vertices = guarded;
-            since_best.clear();
-        }
-    }
+        return worst_margin();
+    };
+    marking.rounds = closed_loop(options.max_rounds, "Shaping patches", progress, shape_and_read, [&] {
+        marking.kept.guarded_vertices = guarded;
+        since_best.clear();
+    });
     for (; !since_best.empty(); since_best.pop_back())
         take_back(since_best.back(), points);
     return marking;

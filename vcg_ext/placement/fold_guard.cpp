@@ -4,6 +4,7 @@
 #include "../base/parallel.h"
 #include "../base/prefetch.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace vcg_ext {
@@ -50,6 +51,17 @@ std::vector<int> only(std::vector<int> numbers, const Bad& bad)
     return numbers;
 }
 
+Moves ascending(std::vector<std::pair<int, Point>> vertices)
+{
+    std::sort(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    Moves moves;
+    for (const auto& [vertex, before] : vertices) {
+        moves.vertices.push_back(vertex);
+        moves.before.push_back(before);
+    }
+    return moves;
+}
+
 bool is_folded(const Cover& cover, const Points& points, int face)
 {
     return folded(cover, face, scaled_normal(points, cover.triangles[face]));
@@ -78,16 +90,16 @@ std::vector<int> folded_faces(const Cover& cover, const Points& points, const st
     return only(faces.list(), [&](int f) { return is_folded(cover, points, f); });
 }
 
-std::vector<int> guard_folds(const Cover& cover, Points& placed, int steps,
-                             const std::function<Point(int, int)>& retreat)
+Moves guard_folds(const Cover& cover, Points& placed, int steps, const std::function<Point(int, int)>& retreat)
 {
     return guard_folds(cover, placed, folded_faces(cover, placed), steps, retreat);
 }
 
-std::vector<int> guard_folds(const Cover& cover, Points& placed, std::vector<int> bad, int steps,
-                             const std::function<Point(int, int)>& retreat)
+Moves guard_folds(const Cover& cover, Points& placed, std::vector<int> bad, int steps,
+                  const std::function<Point(int, int)>& retreat)
 {
     std::vector<int> step(placed.size(), 0);
+    std::vector<std::pair<int, Point>> back;
     Distinct vertices(placed.size());
     Distinct faces(cover.triangles.size());
     while (!bad.empty()) {
@@ -97,6 +109,9 @@ std::vector<int> guard_folds(const Cover& cover, Points& placed, std::vector<int
                 if (step[v] < steps && placed[v] != cover.points[v])
                     vertices.add(v);
         const std::vector<int>& list = vertices.list();
+        for (const int v : list)
+            if (step[v] == 0)
+                back.emplace_back(v, placed[v]);
         for_each_index(static_cast<int>(list.size()), [&](int i) {
             const int v = list[i];
             placed[v] = ++step[v] == steps ? cover.points[v] : retreat(v, step[v]);
@@ -106,7 +121,7 @@ std::vector<int> guard_folds(const Cover& cover, Points& placed, std::vector<int
             std::for_each(cover.around.begin(v), cover.around.end(v), [&](int f) { faces.add(f); });
         bad = only(faces.list(), [&](int f) { return is_folded(cover, placed, f); });
     }
-    return step;
+    return ascending(std::move(back));
 }
 
 } // namespace vcg_ext

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "cover.h"
+#include "moves.h"
 
 #include <functional>
 
@@ -16,13 +17,13 @@ namespace vcg_ext {
 /// \param retreat the position of a vertex at step 1 to `steps` - 1, by these and its own place in `placed` alone; at
 ///                `steps` it is the cover's own. Several threads call it, for different vertices
 /// \param bad     the faces that are folded at step 0
-/// \return per vertex the step it ended at
-std::vector<int> guard_folds(const Cover& cover, Points& placed, std::vector<int> bad, int steps,
-                             const std::function<Point(int vertex, int step)>& retreat);
+/// \return the vertices that went back, and where they were placed
+Moves guard_folds(const Cover& cover, Points& placed, std::vector<int> bad, int steps,
+                  const std::function<Point(int vertex, int step)>& retreat);
 
 /// The same, which looks for those faces itself.
-std::vector<int> guard_folds(const Cover& cover, Points& placed, int steps,
-                             const std::function<Point(int vertex, int step)>& retreat);
+Moves guard_folds(const Cover& cover, Points& placed, int steps,
+                  const std::function<Point(int vertex, int step)>& retreat);
 
 /// Faces of `points` that are folded against the cover, in ascending order.
 [[nodiscard]] std::vector<int> folded_faces(const Cover& cover, const Points& points);
