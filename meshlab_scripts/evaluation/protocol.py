@@ -12,9 +12,9 @@ title, about, meshes, keys, trim
                  published.WHOSE.ATTACK: the bit error rates that somebody else had, in the order of its amounts
 [[figures]]      name, title, experiment; series: an attack's name, or none for the marks themselves;
                  x, y (or ys), panels, lines: columns of the results; where: values of columns
-[[tables]]       name, title, experiment, rows; columns: label, value, scale, digits, over (the label of the column
-                 that this one is also given relative to) and values of columns, or each: a column like this for
-                 each of the experiment's methods; published: rows of the thesis
+[[tables]]       name, title, experiment, rows; columns: label, value, scale, digits behind the point or significant
+                 ones, over (the label of the column that this one is also given relative to) and values of columns,
+                 or each: a column like this for each of the experiment's methods; published: rows of the thesis
 """
 
 import itertools
@@ -37,7 +37,7 @@ MARKS = {"name", "methods", "bits"}, {"strengths", "limits", "attacks", "nulls",
 ALIGNMENT = {"name", "align", "attacks"}, {"meshes"}
 FIGURE = {"name", "title", "experiment", "x"}, {"series", "y", "ys", "panels", "lines", "label", "where"}
 TABLE = {"name", "title", "experiment", "rows"}, {"columns", "each", "published", "timed"}
-COLUMN_OPTIONS = {"label", "value", "scale", "digits", "over"}
+COLUMN_OPTIONS = {"label", "value", "scale", "digits", "significant", "over"}
 COLUMN = {"label", "value"}, COLUMN_OPTIONS | FIELDS
 
 

@@ -71,7 +71,7 @@ def _markdown(columns: list[Spec], ours: dict[str, Cells], published: dict[str, 
 
 
 def _cell(column: Spec, ours: tuple[float, float], thesis: tuple[float, float]) -> str:
-    form = f".{column.get('digits', 2)}f"
+    form = f".{column['significant']}g" if "significant" in column else f".{column.get('digits', 2)}f"
     texts = [" ± ".join(f"{value:{form}}" for value in ours if math.isfinite(value))]
     texts += [f"({value:{form}})" for value in thesis if math.isfinite(value)]
     return " ".join(filter(None, texts)) or "–"
