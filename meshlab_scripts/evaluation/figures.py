@@ -81,7 +81,7 @@ def figure(spec: Spec, frame: pd.DataFrame, path: Path) -> bool:
         axis.set_xlabel((AMOUNTS if x == "amount" else ITERATIONS).get(attack, LABELS[x]))
         axis.set_ylabel(spec.get("label") or LABELS[spec["y"]])
         if spec.get("y") == "detection_ratio":
-            axis.set_ylim(0.35, 1.03)
+            axis.set_ylim(min(0.35, chosen[spec["y"]].min() - 0.03), 1.03)
             axis.axhline(0.5, color="0.6", linewidth=0.6, linestyle=":")
         if spec.get("y", "").startswith("log10_p"):
             axis.axhline(FOUND, color="0.4", linewidth=0.8, linestyle=":")
