@@ -9,6 +9,7 @@
 #include "vcg_ext/geometry/wave_sums.h"
 #include "vcg_ext/key/random.h"
 #include "vcg_ext/method/wave_embedding.h"
+#include "vcg_ext/method/waves.h"
 #include "vcg_ext/placement/fold_guard.h"
 #include "vcg_ext/placement/wave_field.h"
 
@@ -240,6 +241,23 @@ TEST(Waves, SurviveRemeshingAndSmoothing)
     }
 }
 
+TEST(Waves, OfAnyStrengthSurviveSmoothing)
+{
+    CarrierOptions options;
+    options.method = Method::Waves;
+    options.bits = waves;
+    const Plan plan = plan_waves(test_key(), options);
+    for (const double strength : {2.5e-5, 1e-4, 4e-4, 2e-3}) {
+        const Marked marked = mark(body(), strength);
+        Surface smoothed = marked.stego;
+        apply_attack(smoothed, {Attack::Smooth, 0.5, 5, 3});
+        const Readings readings = read_by_waves(smoothed, plan, find_waves(smoothed, plan));
+        EXPECT_LT(readings.presence, -6) << strength;
+        EXPECT_LT(readings.match(marked.coded), -12) << strength;
+        EXPECT_GT(readings.match(coins(test_key(), "another message", waves)), -3) << strength;
+    }
+}
+
 TEST(Waves, AFirstLookAtRestIsAPartOfTheWholeReading)
 {
     const Marked& marked = marked_body();
@@ -372,7 +390,7 @@ TEST(Waves, BoundsHoldWhereDithersAndMasksAreDrawnAnew)
     // Masks redrawn stand for another mask under the same plan, on a mesh that is marked: there the phases do gather.
     const Marked& marked = marked_body();
     WaveReadOptions options;
-    options.rungs = 0;
+    options.lowest_rung = options.highest_rung = 0;
     options.mirrored = false;
     const int draws = 10000; // of dithers; and half as many masks
     WaveGrid small;          // the bounds' logic at a cost that allows many draws

@@ -309,12 +309,12 @@ WaveReading read_waves(WaveSpectra& spectra, const WavePlan& plan, const WaveRea
     (void)wave_step(body, options.strength, plan.count(), &own_rung);
     const int ways_round = orientations * (options.mirrored ? 2 : 1);
     double rung_sum = 0;
-    for (int j = -options.rungs; j <= options.rungs; ++j)
+    for (int j = options.lowest_rung; j <= options.highest_rung; ++j)
         rung_sum += std::pow(rung_fall, std::abs(j));
 
     WaveReading reading;
     reading.grid = &wave_grid();
-    for (int j = -options.rungs; j <= options.rungs; ++j)
+    for (int j = options.lowest_rung; j <= options.highest_rung; ++j)
         for (int way = 0; way < ways_round; ++way) {
             WaveView view;
             view.orientation = way % orientations;

@@ -88,7 +88,8 @@ struct WaveReading {
 
 struct WaveReadOptions {
     double strength = 1e-4; ///< that the mark was made with, as far as the reader knows
-    int rungs = 2;          ///< how many rungs above and below its own it tries
+    int lowest_rung = -2;   ///< that it tries, from that strength's own,
+    int highest_rung = 2;   ///< and the highest; the nearer to its own, the more weight
     bool mirrored = true;   ///< mirror images too
     /// Only the body as it is, without what processing does to it: the weights are the same, so p is as true, and no
     /// lower. Some six times as fast, so worth a try first.

@@ -11,18 +11,30 @@ namespace vcg_ext {
 
 namespace {
 
-constexpr int rungs_at_rest = 18;  ///< each way from the usual strength: a factor of 22, so 5e-6 to 2e-3
-constexpr int rungs_processed = 6; ///< the same where processing is allowed for: 3.5e-5 to 2.8e-4
-constexpr int rungs_of_many = 2;   ///< the same for more than
-constexpr int many_waves = 128;    ///< waves, for the time it takes
 constexpr int most_ways = 4;
-constexpr double rest_share = 0.25; ///< of the doubt, for the reading at rest; the other has the rest
-constexpr double sure = -9;         ///< log10 of presence: no need to look at what processing may have done
+constexpr int many_waves = 128; ///< above it fewer strengths are tried, for the time it takes
+constexpr double sure = -9;     ///< log10 of presence: no need for a further look
+
+/// One look for a mark: the strengths that it tries, in rungs from the usual one, and its share of the doubt.
+struct Look {
+    bool at_rest; ///< processing is not allowed for
+    double share; ///< all looks' are 1
+    int lowest, highest;
+    int lowest_of_many, highest_of_many;
+};
+
+/// Six rungs are a factor of 2.8; all that embedding takes are within 18, a factor of 22. Strong and weak marks that
+/// were processed have looks of their own, after the usual ones, for the time it takes.
+constexpr Look looks[] = {{true, 0.25, -18, 18, -18, 18},
+                          {false, 0.55, -6, 6, -2, 2},
+                          {false, 0.1, 7, 18, 3, 8},
+                          {false, 0.1, -16, -7, -8, -3}};
 
 /// A reading and what it says by the key alone; shared by who asks about expected bits later.
 struct Read {
     WaveReading reading;
     WavePresence presence;
+    double share; ///< of the doubt
 };
 
 double log10_of(double natural)
@@ -35,8 +47,8 @@ template <class LogP>
 double best_of(const std::vector<std::shared_ptr<const Read>>& all, const LogP& log_p)
 {
     double best = 0;
-    for (std::size_t i = 0; i < all.size(); ++i)
-        best = std::min(best, log10_of(log_p(*all[i])) - std::log10(i == 0 ? rest_share : 1 - rest_share));
+    for (const std::shared_ptr<const Read>& one : all)
+        best = std::min(best, log10_of(log_p(*one)) - std::log10(one->share));
     return best;
 }
 
@@ -58,18 +70,21 @@ MarkFrame find_waves(const Surface& surface, const Plan& /*plan*/)
 Readings read_by_waves(const Surface& /*surface*/, const Plan& plan, const MarkFrame& frame)
 {
     WaveSpectra& spectra = *std::get<std::shared_ptr<WaveSpectra>>(frame);
-    const auto read = [&](bool at_rest_only, int rungs) {
+    const bool many = plan.options.bits > many_waves;
+    std::vector<std::shared_ptr<const Read>> all;
+    for (const Look& look : looks) {
+        if (!all.empty() && (plan.options.quick || log10_of(all.back()->presence.log_p) <= sure))
+            break;
         WaveReadOptions options;
-        options.rungs = rungs;
-        options.at_rest_only = at_rest_only;
+        options.lowest_rung = many ? look.lowest_of_many : look.lowest;
+        options.highest_rung = many ? look.highest_of_many : look.highest;
+        options.at_rest_only = look.at_rest;
         auto result = std::make_shared<Read>();
         result->reading = read_waves(spectra, plan.waves, options);
         result->presence = wave_presence(result->reading);
-        return result;
-    };
-    std::vector<std::shared_ptr<const Read>> all{read(true, rungs_at_rest)};
-    if (log10_of(all.front()->presence.log_p) > sure && !plan.options.quick)
-        all.push_back(read(false, plan.options.bits <= many_waves ? rungs_processed : rungs_of_many));
+        result->share = look.share;
+        all.push_back(std::move(result));
+    }
     const Read& found = **std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
         return a->presence.log_evidence < b->presence.log_evidence; // neither looks at bits
     });
