@@ -121,18 +121,12 @@ def error_curves(frame: pd.DataFrame, experiment: str, path: Path) -> None:
 
 
 def _values(rows: pd.DataFrame, column: str) -> list:
-    values = sorted(rows[column].unique(), key=_number if column == "limits" else None)
+    values = sorted(rows[column].unique())
     return [method for method in METHODS if method in values] if column == "method" else values
 
 
-def _number(limits: str) -> float:
-    """The first limit's, to sort by."""
-    return float(limits.split()[0].partition("<=")[2] or 0)
-
-
 def _name(column: str, value: object) -> str:
-    limits = str(value).replace("mrms_relative", "MRMS").replace("msdm", "MSDM").replace("<=", " at most ")
-    return {"bits": f"{value} bits", "limits": limits, "strength": f"α = {value}"}.get(column, str(value))
+    return {"bits": f"{value} bits", "strength": f"α = {value}"}.get(column, str(value))
 
 
 def _style(name: str, number: int) -> dict:

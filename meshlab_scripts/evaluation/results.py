@@ -20,6 +20,12 @@ class NoResults(LookupError):
         super().__init__("There are no results of this protocol yet, for these meshes and this plugin. Run it first.")
 
 
+def limits_in_words(limits: tuple[tuple[str, float], ...]) -> str:
+    """For tables and legends; as texts they sort by the first one's number."""
+    names = {"mrms_relative": "MRMS", "msdm": "MSDM"}
+    return ", ".join(f"{names.get(name, name)} at most " + f"{limit:f}".rstrip("0") for name, limit in limits)
+
+
 def collect(cases: list[Case], store: Store) -> pd.DataFrame:
     """All cases that the store has; failed ones have an `error`. Raises NoResults where it has none."""
     stored = store.get(case.job for case in cases)
@@ -29,7 +35,7 @@ def collect(cases: list[Case], store: Store) -> pd.DataFrame:
             continue
         results, error = stored[case.job.name]
         inputs = asdict(case.job)
-        inputs["limits"] = " ".join(f"{name}<={limit:g}" for name, limit in case.job.limits)
+        inputs["limits"] = limits_in_words(case.job.limits)
         row = {"experiment": case.experiment, "series": case.series, **inputs}
         rows.append({**row, "error": error, **{f"used_{k}" if k in row else k: v for k, v in results.items()}})
     if not rows:

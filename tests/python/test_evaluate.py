@@ -23,6 +23,7 @@ from evaluation.curves import binomial_tail, equal_error_rate, false_positives  
 from evaluation.frames import WAYS, frames, shift  # noqa: E402
 from evaluation.jobs import Job, Site  # noqa: E402
 from evaluation.protocol import ProtocolError, read_protocol  # noqa: E402
+from evaluation.results import limits_in_words  # noqa: E402
 from evaluation.tables import found, robustness  # noqa: E402
 
 
@@ -264,20 +265,26 @@ def test_share_of_marks_that_are_found() -> None:
     rows = [
         {**row, "method": method, "limits": limits, "log10_p": p, "log10_p_alone": alone, "log10_p_original": math.nan}
         for method, limits, p, alone in [
-            ("Waves", "msdm<=0.1", -7.0, -5.0),
-            ("Waves", "msdm<=0.1", -5.9, 0.0),
-            ("Waves", "msdm<=0.2", -19.0, -9.0),
-            ("L-MMean", "msdm<=0.2", 0.0, 0.0),
+            ("Waves", "MSDM at most 0.1", -7.0, -5.0),
+            ("Waves", "MSDM at most 0.1", -5.9, 0.0),
+            ("Waves", "MSDM at most 0.2", -19.0, -9.0),
+            ("L-MMean", "MSDM at most 0.2", 0.0, 0.0),
         ]
-    ] + [{**row, "method": "Layered", "limits": "msdm<=0.2", "error": "No strength"}]
+    ] + [{**row, "method": "Layered", "limits": "MSDM at most 0.2", "error": "No strength"}]
     text = found(pd.DataFrame(rows), "e", ["log10_p", "log10_p_alone", "log10_p_original"])
     assert text.splitlines() == [
         "| limits | attack | Layered | Waves | L-MMean |",
         "| --- | ---: | ---: | ---: | ---: |",
-        "| msdm<=0.1 | noise | – | 50 / 0 | – |",
-        "| msdm<=0.2 | noise | – | 100 / 100 | 0 / 0 |",
+        "| MSDM at most 0.1 | noise | – | 50 / 0 | – |",
+        "| MSDM at most 0.2 | noise | – | 100 / 100 | 0 / 0 |",
     ]
     assert found(pd.DataFrame(rows[-1:]), "e", ["log10_p"]) == ""
+
+
+def test_limits_are_words_and_sort_by_number() -> None:
+    limits = [limits_in_words((("mrms_relative", limit), ("msdm", 0.3))) for limit in (4e-5, 1e-4, 2.9e-4, 8e-4, 0.01)]
+    assert limits == sorted(limits)
+    assert limits[0] == "MRMS at most 0.00004, MSDM at most 0.3"
 
 
 def test_a_report_of_nothing_says_so(tmp_path: Path) -> None:
