@@ -23,7 +23,7 @@ struct WaveEmbedding {
 
 /// Moves the surface by the least smooth field that brings every wave's m_k towards its lattice, all by the same part of
 /// the way, as far as `strength` allows. In a closed loop: guard against folds, round as stored, take the marked solid's
-/// own frame, correct; until every m_k is within .01 D of where it shall be.
+/// own frame, correct; until every m_k is within .025 D of where it shall be.
 ///
 /// \param cover    welded
 /// \param coded    one bit a wave: those of the message, encoded and masked
