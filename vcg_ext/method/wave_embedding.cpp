@@ -70,17 +70,17 @@ std::string text(const char* format, double a, double b = 0, double c = 0)
 }
 
 /// The lattice points that waves are to come near to.
-struct Aim {
+struct WaveAim {
     int rung = 0;
     double step = 0;
     double part = 0;             ///< of the way there that every wave goes
     std::vector<double> targets; ///< to where that is
 };
 
-Aim aim_of(const WaveBody& body, const WaveField& field, const WavePlan& plan, const Bits& coded,
-           const std::vector<double>& now, double strength)
+WaveAim aim_of(const WaveBody& body, const WaveField& field, const WavePlan& plan, const Bits& coded,
+               const std::vector<double>& now, double strength)
 {
-    Aim aim;
+    WaveAim aim;
     (void)wave_step(body, strength, plan.count(), &aim.rung);
     std::vector<double> change;
     const int lowest = aim.rung - rungs_down;
@@ -104,7 +104,7 @@ struct Misses {
     double worst = 0; ///< in steps
 };
 
-Misses misses_of(const Aim& aim, const std::vector<double>& now)
+Misses misses_of(const WaveAim& aim, const std::vector<double>& now)
 {
     Misses misses;
     for (std::size_t k = 0; k < now.size(); ++k) {
@@ -190,7 +190,7 @@ WaveEmbedding embed_waves(const Cover& cover, const WavePlan& plan, const Bits& 
     const Points directions = offset_directions(body, cover.around);
 
     const std::vector<double> before = values_in_frame(body, body.points, body.frame, plan);
-    const Aim aim = aim_of(body, field, plan, coded, before, strength);
+    const WaveAim aim = aim_of(body, field, plan, coded, before, strength);
     WaveEmbedding result;
     result.points = cover.points;
     result.step = aim.step;
