@@ -86,7 +86,8 @@ Readings read_by_waves(const Surface& /*surface*/, const Plan& plan, const MarkF
         all.push_back(std::move(result));
     }
     const Read& found = **std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
-        return a->presence.log_evidence < b->presence.log_evidence; // neither looks at bits
+        const auto weighed = [](const Read& one) { return one.presence.log_evidence + std::log(one.share); };
+        return weighed(*a) < weighed(*b); // neither looks at bits
     });
     Readings readings;
     readings.in_log_likelihoods = true;
