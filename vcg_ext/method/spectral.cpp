@@ -208,15 +208,13 @@ Moves moves_of(const PatchReading& reading, const std::vector<char>& chosen, con
     return moves;
 }
 
-/// Takes moves back by halves where a face would fold, those of earlier rounds too: such vertices are added to the
-/// moves. Returns how many vertices went back.
-int guard(const Cover& cover, Moves& moves, Points& points)
+/// Takes moves back by halves where a face would fold, those of earlier rounds too.
+/// \param moved in this round
+Moves guard(const Cover& cover, const std::vector<int>& moved, Points& points)
 {
     constexpr int steps = 8;
-    const Moves back = guard_folds(cover, points, folded_faces(cover, points, {}, moves.vertices), steps,
-                                   [&](int v, int) -> Point { return (points[v] + cover.points[v]) / 2; });
-    moves = joined(moves, back);
-    return static_cast<int>(back.vertices.size());
+    return guard_folds(cover, points, folded_faces(cover, points, {}, moved), steps,
+                       [&](int v, int) -> Point { return (points[v] + cover.points[v]) / 2; });
 }
 
 /// Per patch the bit that it is to carry, or -1.
@@ -387,10 +385,10 @@ Marking embed_spectral(const Cover& cover, const Plan& plan, const Bits& coded, 
         const std::vector<char> chosen = patches_to_shape(reading, wanted(), aim, round == 1);
         Moves moves = moves_of(reading, chosen, points);
         reshape(reading, plan, wanted(), chosen, aim, cover, points);
-        guarded = as_printed ? 0 : guard(cover, moves, points);
+        const Moves back = as_printed ? Moves() : guard(cover, moves.vertices, points);
+        guarded = static_cast<int>(back.vertices.size());
+        moves = round == 1 ? Moves() : joined(moves, back); // after the first there is nothing better to go back to
         if (as_printed || round == 1 || moves.vertices.size() > few * points.size()) {
-            if (round == 1)
-                moves = {}; // there is nothing better to go back to
             reading = {};
             reading = read_anew(rounded_to_float(points));
         } else
