@@ -3,6 +3,7 @@
 
 from dataclasses import asdict
 
+import numpy as np
 import pandas as pd
 
 from .protocol import Case
@@ -23,7 +24,9 @@ class NoResults(LookupError):
 def limits_in_words(limits: tuple[tuple[str, float], ...]) -> str:
     """For tables and legends; as texts they sort by the first one's number."""
     names = {"mrms_relative": "MRMS", "msdm": "MSDM"}
-    return ", ".join(f"{names.get(name, name)} at most " + f"{limit:f}".rstrip("0") for name, limit in limits)
+    return ", ".join(
+        f"{names.get(name, name)} at most {np.format_float_positional(limit, trim='-')}" for name, limit in limits
+    )
 
 
 def collect(cases: list[Case], store: Store) -> pd.DataFrame:

@@ -91,6 +91,15 @@ def make_mark(folder: Path, method: str, statistic: str) -> Report:
     return {"file": file.name, "settings": settings, "message": MESSAGE, "readings": readings}
 
 
+def make_marks(folder: Path) -> list[Report]:
+    """All of them, and their entries."""
+    return [
+        make_mark(folder, method, statistic)
+        for method in METHODS
+        for statistic in (STATISTICS[:1] if method in ONE_STATISTIC else STATISTICS)
+    ]
+
+
 def read_by_stranger(folder: Path) -> list[Report]:
     """The marks' entries with what another key reads now."""
     marks = json.loads((folder / "golden.json").read_text(encoding="utf-8"))
@@ -104,15 +113,7 @@ def main(
     stranger: Annotated[bool, typer.Option("--stranger", help="Only what another key reads.")] = False,
 ) -> None:
     """Makes one mark for each method and statistic, and golden.json."""
-    marks = (
-        read_by_stranger(folder)
-        if stranger
-        else [
-            make_mark(folder, method, statistic)
-            for method in METHODS
-            for statistic in (STATISTICS[:1] if method in ONE_STATISTIC else STATISTICS)
-        ]
-    )
+    marks = read_by_stranger(folder) if stranger else make_marks(folder)
     for mark in marks:
         if mark["readings"][0]["p_value"] > 1e-8:  # 32 carriers cannot say much more
             raise SystemExit(f"{mark['file']} does not read back: choose another body or fewer bits.")

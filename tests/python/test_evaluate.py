@@ -285,6 +285,7 @@ def test_limits_are_words_and_sort_by_number() -> None:
     limits = [limits_in_words((("mrms_relative", limit), ("msdm", 0.3))) for limit in (4e-5, 1e-4, 2.9e-4, 8e-4, 0.01)]
     assert limits == sorted(limits)
     assert limits[0] == "MRMS at most 0.00004, MSDM at most 0.3"
+    assert limits_in_words((("msdm", 1.0),)) == "MSDM at most 1"
 
 
 def test_a_report_of_nothing_says_so(tmp_path: Path) -> None:
