@@ -58,6 +58,11 @@ class Job:
         return replace(self, kind="embed", attack="", amount=-1, iterations=-1, unit="", original=False)
 
     @property
+    def before(self) -> "Job":
+        """The job that this one needs: an attack its mark, one within limits that of key 0 with the strength."""
+        return replace(self, key=0) if self.kind == "embed" and self.limits else self.mark
+
+    @property
     def secret(self) -> str:
         """The key of this number."""
         return f"evaluation key {self.key}"

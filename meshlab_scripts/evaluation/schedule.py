@@ -15,7 +15,7 @@ from .work import run
 
 
 def run_missing(jobs: list[Job], site: Site, store: Store, scheduler: str | None, title: str = "") -> None:
-    """Runs the jobs that the store has no result of, each after the one that makes its marked mesh."""
+    """Runs the jobs that the store has no result of, each after the one that it needs."""
     by_name = {job.name: job for job in jobs}
     done = store.get(jobs)
     missing = [job for name, job in by_name.items() if name not in done]
@@ -27,7 +27,7 @@ def run_missing(jobs: list[Job], site: Site, store: Store, scheduler: str | None
     ):
         futures: dict[str, Future] = {}
         for job in sorted(missing, key=lambda job: job.kind != "embed"):
-            futures[job.name] = client.submit(run, job, site, futures.get(job.mark.name), key=job.name)
+            futures[job.name] = client.submit(run, job, site, futures.get(job.before.name), key=job.name)
         lost = 0
         for future in as_completed(futures.values()):
             job = by_name[future.key]

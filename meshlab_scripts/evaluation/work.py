@@ -27,7 +27,7 @@ CLOSE = 0.01  # it ends where the mark is this near to its limit
 
 
 def run(job: Job, site: Site, after: object = None) -> tuple[Numbers, str]:
-    """The job's results, or why there are none. `after` is only waited for: the job that makes the marked mesh."""
+    """The job's results, or why there are none. `after` is only waited for: the job that this one needs."""
     try:
         plugin.load(site.plugin)
         return WORK[job.kind](job, site), ""

@@ -8,6 +8,7 @@ import sqlite3
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -204,6 +205,19 @@ columns = [{ label = "l", method = "ChoMean", value = "mrms" }]
 def test_protocols_are_read() -> None:
     for path in sorted((SCRIPTS / "protocols").glob("*.toml")):
         assert read_protocol(path).experiments
+
+
+def test_a_job_comes_after_the_one_that_it_needs() -> None:
+    """So that a mark is made once, and a strength sought once, however many work on them."""
+    meshes, plugin = ROOT / "build/data/meshes", ROOT / "build/meshlab-2025.07/libfilter_watermark.so"
+    for name in ("smoke", "field"):
+        earlier = set()
+        for job in (case.job for case in read_protocol(SCRIPTS / f"protocols/{name}.toml").cases(meshes, plugin)):
+            if job.kind == "attack" or (job.kind == "embed" and job.limits and job.key):
+                assert job.before in earlier
+            if job.limits:
+                assert job.before.before == replace(job.mark, key=0)
+            earlier.add(job)
 
 
 @pytest.mark.parametrize(
