@@ -8,6 +8,7 @@
 #include <mutex>
 #include <sodium.h>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace vcg_ext {
@@ -97,11 +98,16 @@ Key::Key(std::string_view secret)
         throw Error("The key is empty. Give a passphrase, file:PATH or env:NAME.");
     if (sodium_init() < 0)
         throw Error("libsodium could not start, so there is no key. Check the system's source of random numbers.");
-    master_ = std::async(std::launch::async, [secret = to_secret(secret)] {
-                  auto master = std::make_unique<Master>();
-                  derive(secret, master->bytes);
-                  return std::unique_ptr<const Master>(std::move(master));
-              }).share();
+    const auto master = [secret = to_secret(secret)] {
+        auto master = std::make_unique<Master>();
+        derive(secret, master->bytes);
+        return std::unique_ptr<const Master>(std::move(master));
+    };
+    try {
+        master_ = std::async(std::launch::async, master).share();
+    } catch (const std::system_error&) { // no thread is to be had: whoever asks first derives it
+        master_ = std::async(std::launch::deferred, master).share();
+    }
 }
 
 Stream Key::stream(std::string_view purpose) const
