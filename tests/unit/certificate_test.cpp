@@ -216,6 +216,33 @@ TEST(Certificate, RefusesWhatIsNone)
     EXPECT_NE(refusal_of(damaged).find("damaged"), std::string::npos);
 }
 
+/// A certificate with these bytes somewhere in it, and the checksum that goes with them.
+std::string forged(std::string file, std::size_t at, const std::string& bytes)
+{
+    file.replace(at, bytes.size(), bytes);
+    std::uint64_t hash = 14695981039346656037U; // FNV-1a, as published
+    for (std::size_t i = file.find('\n') + 1; i < file.size() - 8; ++i)
+        hash = (hash ^ static_cast<unsigned char>(file[i])) * 1099511628211U;
+    for (int i = 0; i < 8; ++i)
+        file[file.size() - 8 + i] = static_cast<char>(hash >> 8 * i & 255U);
+    return file;
+}
+
+TEST(Certificate, RefusesNumbersThatAreNone)
+{
+    const std::size_t content = bytes().find('\n') + 1;
+    const std::size_t centre = content + 2 + 4;
+    EXPECT_EQ(forged(bytes(), content, bytes().substr(content, 2)), bytes());
+    const std::string not_a_number(8, '\xff');
+    EXPECT_NE(refusal_of(forged(bytes(), centre, not_a_number)).find("not finite"), std::string::npos);
+    // Waves and no shells: the byte that says so is the last but for the checksum; before it 64 values, 9 axes.
+    const std::size_t values = bytes().size() - 8 - 1 - 64 * sizeof(float);
+    EXPECT_NE(refusal_of(forged(bytes(), values, not_a_number)).find("not finite"), std::string::npos);
+    EXPECT_NE(refusal_of(forged(bytes(), values - 8, not_a_number)).find("not finite"), std::string::npos);
+    const std::size_t length = centre + 12 * sizeof(double); // of the solid's frame, behind its centre and axes
+    EXPECT_NE(refusal_of(forged(bytes(), length, std::string(8, '\0'))).find("make no sense"), std::string::npos);
+}
+
 TEST(Certificate, RefusesAnotherKeyOrSettingAndMethodsThatNeedTheOriginal)
 {
     EXPECT_NE(refusal_of(Key("another"), asking(Method::Waves)).find("another key"), std::string::npos);

@@ -2,6 +2,7 @@
 #pragma once
 #include "error.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -42,7 +43,7 @@ public:
     /// \param bytes must outlive it
     explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
 
-    /// \throw Error where no bytes are left
+    /// \throw Error where no bytes are left, or they are no finite number
     template <class Number>
     Number get()
     {
@@ -55,6 +56,9 @@ public:
         }
         Number number;
         std::memcpy(&number, &bits, sizeof bits);
+        if constexpr (std::is_floating_point_v<Number>)
+            if (!std::isfinite(number))
+                throw Error("One of the numbers is not finite.");
         return number;
     }
 

@@ -291,9 +291,10 @@ Impression read_impression(ByteReader& reader)
     for (double& x : corner)
         x = reader.get<double>();
     const double step = reader.get<double>();
-    const bool sound = corner.allFinite() && step > 0 && likeness.diagonal > 0 && likeness.size() > 0 &&
-                       std::isfinite(step + likeness.diagonal + likeness.size()) && count > 0 &&
-                       described_points <= count;
+    constexpr double largest = 1e35; // as of meshes
+    const bool sound = step > 0 && likeness.diagonal > 0 && likeness.size() > 0 && count > 0 &&
+                       described_points <= count &&
+                       std::max({corner.cwiseAbs().maxCoeff(), step, likeness.diagonal, likeness.size()}) < largest;
     if (!sound)
         throw Error("The numbers of the points make no sense.");
     for (int i = 0; i < count; ++i) {

@@ -43,7 +43,10 @@ Certificate parsed(std::string_view bytes)
         shells.minimum = reader.get<double>();
         shells.maximum = reader.get<double>();
     }
-    if (certificate.carriers < 1 || certificate.carriers > most_carriers || reader.left() > 0)
+    const bool sound = certificate.carriers >= 1 && certificate.carriers <= most_carriers && reader.left() == 0 &&
+                       (!certificate.waves || certificate.impression.likeness.solid.length > 0) &&
+                       (!certificate.shells || certificate.shells->minimum < certificate.shells->maximum);
+    if (!sound)
         throw Error("The numbers make no sense.");
     return certificate;
 }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 namespace vcg_ext {
 
@@ -36,7 +37,7 @@ std::vector<WaveAssumption> steps_to_try(const WaveBody& body, int waves, const 
 /// The ways in which copies of one original are read.
 class Ways {
 public:
-    explicit Ways(int carriers) : carriers_(carriers) { readings.in_log_likelihoods = true; }
+    Ways() { readings.in_log_likelihoods = true; }
 
     /// \param weight of all of them together
     void add(std::vector<Demodulated> all, double weight)
@@ -50,7 +51,6 @@ public:
             }
             Reading reading;
             reading.weight = weight * all[i].weight;
-            reading.erased.assign(carriers_, 0);
             reading.soft = std::move(all[i].soft);
             readings.ways.push_back(std::move(reading));
         }
@@ -59,18 +59,22 @@ public:
     Readings readings;
 
 private:
-    int carriers_;
     double most_ = -1;
 };
 
-/// It takes as long as any other, so numbers of carriers on the side are not tried.
+/// Of what cannot be read; and of numbers of carriers on the side, as each takes as long as any other.
 Readings nothing(int carriers)
 {
     Readings readings;
     readings.ways.emplace_back();
     readings.ways.front().soft.assign(carriers, 0);
-    readings.ways.front().erased.assign(carriers, 1);
     return readings;
+}
+
+/// What the ways say. An original that is round about an axis has none: its equations give no numbers.
+Readings readings_of(Ways ways, int carriers)
+{
+    return ways.readings.ways.empty() ? nothing(carriers) : std::move(ways.readings);
 }
 
 /// The patches that are there as they were, whatever noise does to all areas alike.
@@ -190,7 +194,7 @@ Readings read_wave_copy(const Copy& copy, const Plan& plan, const MarkFrame& fra
     const WaveReply reply(seen.body(), plan.waves);
     const std::vector<WaveAssumption> assumptions =
         steps_to_try(seen.body(), plan.waves.count(), [&](int rung) { return reply.moves(rung); });
-    Ways ways(plan.waves.count());
+    Ways ways;
     const Imprint imprint(seen.impression(), seen.body().frame.axes, plan.waves);
     Surface laid = laid_by(copy.registration.affine, copy.surface, copy.registration);
     if (seen.body().frame.measure < 0)
@@ -202,7 +206,7 @@ Readings read_wave_copy(const Copy& copy, const Plan& plan, const MarkFrame& fra
         if (state.rounds > 0)
             ways.readings.smoothing_rounds = state.rounds;
     }
-    return ways.readings;
+    return readings_of(std::move(ways), plan.waves.count());
 }
 
 void certify_waves(const Surface& original, const Plan& plan, Certificate& certificate)
@@ -223,10 +227,10 @@ Readings read_certified_waves(const CertifiedCopy& copy, const Plan& plan)
     const Eigen::PartialPivLU<Eigen::MatrixXd> derivative(imprint.gram() / (4 * pi));
     const std::vector<WaveAssumption> assumptions = steps_to_try(
         body, plan.waves.count(), [&](int rung) { return wave_moves(plan.waves, known.values, derivative, rung); });
-    Ways ways(plan.waves.count());
+    Ways ways;
     const Surface laid = laid_by(copy.registration.affine, copy.surface, copy.registration);
     ways.add(imprint.read(laid, assumptions), 1);
-    return ways.readings;
+    return readings_of(std::move(ways), plan.waves.count());
 }
 
 } // namespace vcg_ext
