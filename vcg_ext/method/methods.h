@@ -30,7 +30,9 @@ struct MethodRow {
     /// with its strength (0: the user's). Itself alone for all but Layered, whose functions are empty but for strength.
     std::vector<std::pair<Method, double>> layers;
     bool has_statistic; ///< whether Statistic matters
-    bool is_smooth;     ///< moves the surface by a smooth field: how well planes stay planes is reported
+    /// Moves the surface by a smooth field: how well planes stay planes is reported, and that there is a mark can be told
+    /// without its bits.
+    bool is_smooth;
     /// How it wants the body's sites numbered, where it goes from neighbour to neighbour most of its time; null: as they
     /// come.
     void (*number)(Body& body);

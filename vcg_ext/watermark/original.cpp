@@ -18,7 +18,7 @@ namespace {
 /// A mark on the original would be found on anything that looks like it.
 void refuse_marked(const Surface& original, const Key& key, DetectOptions options)
 {
-    if (options.carriers.bits == 0)
+    if (options.carriers.bits == 0 && row_of(options.carriers.method).is_smooth) // presence tells, whatever the number
         options.carriers.bits =
             options.expected.empty() ? recommended_numbers().front() : recommended_carriers(options.expected.front());
     options.carriers.quick = true;
