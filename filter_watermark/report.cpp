@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report.h"
 
+#include <QDir>
 #include <QFileInfo>
 #include <vcg_ext/base/version.h>
 
@@ -272,6 +273,27 @@ QStringList to_lines(const Json& results)
     return lines;
 }
 
+namespace {
+
+/// The parameter other than this one that names this file; empty where none does.
+QString also_named_by(const RichParameterList& values, const QString& parameter, const QFileInfo& target)
+{
+    const auto plain = [](const QFileInfo& file) { return QDir::cleanPath(file.absoluteFilePath()); };
+    const auto is_target = [&](const QString& path) {
+        return !path.isEmpty() && plain(QFileInfo(path)) == plain(target);
+    };
+    for (const char* other : {"Report", "Certificate"})
+        if (other != parameter && values.hasParameter(other) && is_target(values.getSaveFileName(other)))
+            return other;
+    for (const char* other : {"Key", "Expected"})
+        if (values.hasParameter(other) && values.getString(other).startsWith("file:") &&
+            is_target(values.getString(other).mid(5)))
+            return other;
+    return {};
+}
+
+} // namespace
+
 OutputFile::OutputFile(const RichParameterList& values, const QString& parameter)
     : parameter_(parameter), file_(values.getSaveFileName(parameter))
 {
@@ -280,6 +302,8 @@ OutputFile::OutputFile(const RichParameterList& values, const QString& parameter
     const QFileInfo target(file_.fileName());
     if (target.exists() && !target.isFile())
         fail("it is no file"); // renaming would put a file in a device's place
+    if (const QString other = also_named_by(values, parameter, target); !other.isEmpty())
+        fail(other + " names the same file");
     if (!file_.open(QIODevice::WriteOnly))
         fail(file_.errorString());
 }

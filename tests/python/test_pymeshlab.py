@@ -192,6 +192,19 @@ def test_a_full_disk_is_an_error_and_changes_nothing(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
+def test_no_output_takes_the_place_of_another_file_of_the_same_call(tmp_path: Path) -> None:
+    (tmp_path / "secret.key").write_text(KEY)
+    same, other = str(tmp_path / "secret.key"), str(tmp_path / "sub/../secret.key")
+    calls: list[dict[str, Value]] = [
+        {**MARK, "Key": f"file:{same}", "Report": other},
+        {**MARK, "Certificate": same, "Report": other},
+    ]
+    for values in calls:
+        with pytest.raises(Refused, match="names the same file"):
+            PyMeshLab().run(EMBED, FANDISK, **values)
+        assert (tmp_path / "secret.key").read_text() == KEY
+
+
 def test_no_mesh_and_an_empty_mesh_are_refused() -> None:
     emptied = opened(FANDISK)
     emptied.set_selection_all()
