@@ -48,15 +48,14 @@ Json run(const RichParameterList& values, MeshDocument& document, const vcg_ext:
         measure(read_surface(reference, with_matrices), read_surface(layer, with_matrices), options, progress);
     Json results = to_json(report);
     constexpr double plain = 1e-3; // of the diagonal: nobody would overlook that
-    const double diagonal = report.mrms_relative > 0 ? report.mrms / report.mrms_relative : 1;
     results["colors"] = QString("red is 0, blue is %1 (a thousandth of the diagonal) and more; colours that the layer "
                                 "had are kept, and distances are its vertices' quality.")
-                            .arg(plain * diagonal, 0, 'g', 3)
+                            .arg(plain * report.diagonal, 0, 'g', 3)
                             .toStdString();
     if (with_matrices)
         results["warnings"].push_back(stretched_as_read);
     file.write(results);
-    write_distances(layer, report.distance, plain * diagonal);
+    write_distances(layer, report.distance, plain * report.diagonal);
     return results;
 }
 

@@ -29,6 +29,7 @@ TEST(Distortion, OfNothingIsNothing)
 {
     const Surface disk = load("fandisk.off");
     const DistortionReport r = measure(disk, disk);
+    EXPECT_DOUBLE_EQ(r.diagonal, bounding_diagonal(disk));
     EXPECT_LT(r.mrms_relative, 1e-15);
     EXPECT_LT(r.hausdorff_relative, 1e-15);
     EXPECT_FALSE(r.snr_db);

@@ -194,10 +194,10 @@ DistortionReport measure(const Surface& reference, const Surface& measured, cons
     result.mrms = std::sqrt(std::max(forward.squares, backward.squares) / result.samples);
     result.mean = std::max(forward.sum, backward.sum) / result.samples;
     result.hausdorff = std::max({forward.most, backward.most, most(of_measured), most(of_reference)});
-    const double diagonal = bounding_diagonal(pair.reference);
-    result.mrms_relative = result.mrms / diagonal;
-    result.mean_relative = result.mean / diagonal;
-    result.hausdorff_relative = result.hausdorff / diagonal;
+    result.diagonal = bounding_diagonal(pair.reference);
+    result.mrms_relative = result.mrms / result.diagonal;
+    result.mean_relative = result.mean / result.diagonal;
+    result.hausdorff_relative = result.hausdorff / result.diagonal;
     result.snr_db = signal_to_noise(pair, of_measured);
     compare_sizes(pair, result);
 

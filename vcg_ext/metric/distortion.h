@@ -20,7 +20,8 @@ struct DistortionReport {
     double mrms = 0;               ///< the larger of the two RMS distances (thesis, 2.16)
     double hausdorff = 0;          ///< largest distance of any sample or vertex to the other surface, both directions
     double mean = 0;               ///< the larger of the two mean distances
-    double mrms_relative = 0;      ///< over the reference's bounding-box diagonal
+    double diagonal = 0;           ///< of the reference's bounding box
+    double mrms_relative = 0;      ///< over the diagonal
     double hausdorff_relative = 0; ///< likewise
     double mean_relative = 0;      ///< likewise
     std::optional<double> snr_db;  ///< signal to noise of the vertices; empty where nothing moved (it is infinite)
