@@ -311,7 +311,9 @@ int carriers_that_fit(const Surface& surface, const Key& key, const EmbedOptions
             embed(copy, key, tried,
                   [&progress](int, const char*) { return !progress || progress(50, "Finding how many bits fit"); });
             return true;
-        } catch (const DoesNotFit&) {
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const Error&) { // of this number, which nobody asked for
             return false;
         }
     };
