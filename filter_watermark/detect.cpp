@@ -11,7 +11,8 @@ namespace {
 QString info()
 {
     return "Reads the message that <b>Watermark: Embed</b> hid in the mesh, with the key alone. The last line of the log is the "
-           "verdict: the message that is there, another one than expected, a mark of another key or setting, or none. "
+           "verdict: the message that is there, another one than expected, a mark whose message does not come out, one of "
+           "another key or setting, or none. "
            "<i>p_value</i> (with <b>Expected message</b>) and <i>p_message</i> (without) are true upper bounds of the "
            "probability that an unmarked mesh, or another key, reads as well by chance; below 1e-6 a mark counts as found.<br>"
            "Method, Statistic and Trim must be those of embedding; Bits too, unless it is 0. <b>Show carriers</b> makes a "

@@ -15,10 +15,9 @@ struct Reading {
     /// its probability divided by its weight, is still a true bound.
     double weight = 1;
     /// How far the carrier stands on the side of 1 (positive) or 0, in standard errors: proportional to the
-    /// log-likelihood ratio; 0 for an erasure.
+    /// log-likelihood ratio; 0 where the surface has nothing to say of it, an erasure.
     std::vector<double> soft;
     std::vector<int> samples; ///< vertices in the carrier; empty where a carrier is no set of vertices
-    std::vector<char> erased; ///< 1 where the surface has nothing to say of this carrier
     std::vector<int> label;   ///< the carrier's number in Readings::label_of_vertex, or -1
     std::string orientation;  ///< how the body was held, where that is a choice; else empty
 };

@@ -30,7 +30,6 @@ Readings readings_of(Carriers carriers, const std::vector<double>& read, const s
         reading.soft.push_back(count[k] > 0 ? (read[k] - threshold(statistic)) / standard_error(statistic, count[k])
                                             : 0);
         reading.samples.push_back(count[k]);
-        reading.erased.push_back(count[k] == 0);
         reading.label.push_back(k);
     }
     Readings readings;

@@ -420,7 +420,6 @@ Readings read_spectral(const Surface& surface, const Plan& plan, const MarkFrame
         for (const int patch : reading.label) {
             reading.soft.push_back(patch >= 0 ? patches.soft(patch) : 0);
             reading.samples.push_back(patch >= 0 ? patches.shapes[patch].samples : 0);
-            reading.erased.push_back(patch < 0);
         }
         readings.ways.push_back(std::move(reading));
     }
@@ -461,7 +460,6 @@ Readings read_spectral_copy(const Copy& copy, const Plan& plan, const MarkFrame&
         way.samples.push_back(patch >= 0 ? reading.shapes[patch].samples : 0);
         const bool held = way.samples.back() >= vertices_of_a_shape;
         way.soft.push_back(held ? reading.soft(patch) : 0);
-        way.erased.push_back(!held);
     }
     Readings readings;
     readings.ways.push_back(std::move(way));

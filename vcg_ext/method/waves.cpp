@@ -94,7 +94,6 @@ Readings read_by_waves(const Surface& /*surface*/, const Plan& plan, const MarkF
     for (WaveSoft& way : wave_ways(found.reading, found.presence, most_ways)) {
         Reading reading;
         reading.weight = way.weight;
-        reading.erased.assign(way.soft.size(), 0);
         reading.soft = std::move(way.soft);
         readings.ways.push_back(std::move(reading));
     }

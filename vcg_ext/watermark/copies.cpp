@@ -44,7 +44,7 @@ void look_alone(const Surface& surface, const Key& key, const DetectOptions& opt
     } catch (const Error&) {
         return; // it cannot be read alone
     }
-    if (best_p(alone) >= best_p(result))
+    if (!says_more(alone, result))
         return;
     alone.registration = result.registration;
     alone.parts = std::move(result.parts);

@@ -32,11 +32,20 @@ struct Count {
     bool quick; ///< see CarrierOptions
 };
 
+/// Whether there is nothing that is too long for so many carriers alone.
+bool one_fits(const std::vector<Message>& expected, int carriers)
+{
+    return expected.empty() || std::any_of(expected.begin(), expected.end(), [carriers](const Message& message) {
+               return static_cast<int>(message.bits.size()) <= carriers;
+           });
+}
+
 /// Half of the doubt is for the number that the expected message asks for, the rest for the other recommended ones.
-std::vector<Count> counts_to_try(const DetectOptions& options)
+/// \param share of the doubt, for all of them
+std::vector<Count> counts_to_try(const DetectOptions& options, double share)
 {
     if (options.carriers.bits > 0)
-        return {{options.carriers.bits, 1, options.carriers.quick}};
+        return {{options.carriers.bits, share, options.carriers.quick}};
     std::vector<int> ladder = recommended_numbers();
     if (!options.expected.empty()) {
         const int own = recommended_carriers(options.expected.front());
@@ -44,7 +53,7 @@ std::vector<Count> counts_to_try(const DetectOptions& options)
     }
     std::vector<Count> counts;
     for (std::size_t i = 0; i < ladder.size(); ++i)
-        counts.push_back({ladder[i], std::exp2(-static_cast<double>(std::min(i + 1, ladder.size() - 1))),
+        counts.push_back({ladder[i], share * std::exp2(-static_cast<double>(std::min(i + 1, ladder.size() - 1))),
                           options.expected.empty() ? ladder[i] > most_to_search : i > 0});
     return counts;
 }
@@ -126,21 +135,37 @@ struct Trial {
     double trim = 0;
     std::vector<std::string> warnings;
 
-    /// log10 p of the expected message, or of any, this count's share taken off.
+    /// log10 of a bound, this count's share taken off: so it holds for whichever count is chosen after looking.
+    [[nodiscard]] double after_share(double log10_p) const { return std::min(0.0, log10_p - std::log10(count.weight)); }
+
+    /// log10 p of the expected message, or of any.
     [[nodiscard]] double log10_p(bool expected) const
     {
-        const double p = expected ? judgement.match->log10_p : judgement.best.log10_p;
-        return std::min(0.0, p - std::log10(count.weight));
+        return after_share(expected ? judgement.match->log10_p : judgement.best.log10_p);
+    }
+
+    /// log10 p of the better one.
+    [[nodiscard]] double log10_best() const
+    {
+        return judgement.match ? std::min(log10_p(true), log10_p(false)) : log10_p(false);
+    }
+
+    /// log10 p that a mark is there, whatever its message.
+    [[nodiscard]] double log10_presence() const
+    {
+        double least = 0;
+        for (const LayerReading& layer : layers)
+            least = std::min(least, after_share(layer.readings.presence.value_or(0)));
+        return least;
+    }
+
+    /// Less says more: a message that is proven, by its p; short of that, a mark that is there.
+    [[nodiscard]] double loudness() const
+    {
+        const double message = log10_best();
+        return message < sure ? message : std::max(sure, std::min(message, log10_presence()));
     }
 };
-
-/// Whether there is nothing that is too long for so many carriers alone.
-bool one_fits(const std::vector<Message>& expected, int carriers)
-{
-    return expected.empty() || std::any_of(expected.begin(), expected.end(), [carriers](const Message& message) {
-               return static_cast<int>(message.bits.size()) <= carriers;
-           });
-}
 
 Trial try_count(const LayerReader& read, const Key& key, const DetectOptions& options, const Count& count)
 {
@@ -152,6 +177,39 @@ Trial try_count(const LayerReader& read, const Key& key, const DetectOptions& op
     trial.layers = read_layers(read, key, carriers, trial.trim, trial.warnings);
     trial.judgement = judge(trial.layers, count.carriers, options.expected);
     return trial;
+}
+
+/// What all counts come to.
+struct Search {
+    Trial best;                ///< that says the most
+    double log10_any = 0;      ///< that any message reads as well
+    double log10_expected = 0; ///< that one of those expected does
+};
+
+Search try_counts(const LayerReader& read, const Key& key, const DetectOptions& options, double share,
+                  const Progress& progress)
+{
+    const std::vector<Count> counts = counts_to_try(options, share);
+    std::optional<Trial> best;
+    Search result;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        report(progress, 10 + 80 * static_cast<int>(i) / static_cast<int>(counts.size()), "Reading");
+        if (!one_fits(options.expected, counts[i].carriers))
+            continue;
+        Trial trial = try_count(read, key, options, counts[i]);
+        result.log10_any = std::min(result.log10_any, trial.log10_p(false));
+        if (!options.expected.empty())
+            result.log10_expected = std::min(result.log10_expected, trial.log10_p(true));
+        if (!best || trial.loudness() < best->loudness())
+            best = std::move(trial);
+        if (result.log10_any < sure || result.log10_expected < sure)
+            break; // weights were fixed before looking, so to stop here is no choice
+    }
+    if (!best)
+        throw Error("The expected message does not fit: " + need(options.expected.front()) + ", but Bits is " +
+                    std::to_string(counts.front().carriers) + ". Bits must be that of embedding; 0 finds it.");
+    result.best = std::move(*best);
+    return result;
 }
 
 /// Without the zeros that a message is filled up with.
@@ -168,9 +226,9 @@ std::string quoted(const std::string& message)
 }
 
 /// Fills in what was found, and says it in words.
-void conclude(const DetectOptions& options, const Trial& trial, double log10_any, double log10_expected,
-              DetectReport& result)
+void conclude(const DetectOptions& options, const Search& search, DetectReport& result)
 {
+    const auto& [trial, log10_any, log10_expected] = search;
     const Judgement& judgement = trial.judgement;
     const bool asked = !options.expected.empty();
     const Message* expected = asked ? &options.expected[judgement.match->candidate] : nullptr;
@@ -202,18 +260,19 @@ void conclude(const DetectOptions& options, const Trial& trial, double log10_any
     }
     for (const LayerReading& layer : trial.layers) {
         const double usual = row_of(layer.method).unmarked_strength;
-        if (layer.readings.presence && *layer.readings.presence < sure) {
-            result.finding = Verdict::AnotherKey;
-            result.verdict = std::string("marked with this key by ") + name(layer.method) + " (" +
-                             chance(*layer.readings.presence) + "), but no message is read for certain.";
+        const double presence = trial.after_share(layer.readings.presence.value_or(0));
+        if (presence < sure) {
+            result.finding = Verdict::NoMessage;
+            result.verdict = std::string("no message: marked with this key by ") + name(layer.method) + " (" +
+                             chance(presence) + "), but no message is read for certain.";
             return;
         }
         if (usual > 0 && mean_strength(layer) > usual) {
             result.finding = Verdict::AnotherKey;
             result.verdict = std::string("another key or setting: the carriers of ") + name(layer.method) +
-                             " are too strong for an unmarked mesh (" + text(mean_strength(layer)) +
-                             " standard errors, where up to " + text(usual) +
-                             " is usual), but hold no message of this key.";
+                             " are too strong for an unmarked mesh (" +
+                             text(std::round(100 * mean_strength(layer)) / 100) + " standard errors, where up to " +
+                             text(usual) + " is usual), but hold no message of this key.";
             return;
         }
     }
@@ -221,95 +280,82 @@ void conclude(const DetectOptions& options, const Trial& trial, double log10_any
     result.verdict = "not found: no mark of this key; the mesh is unmarked, or the mark is destroyed.";
 }
 
-} // namespace
-
-const char* name(Verdict verdict)
+/// How the carriers match the expected message's, as the literature counts it. An erased carrier is no coin: it counts
+/// a half in the ratio, and not at all in the bound.
+void count_matches(const DetectOptions& options, const Trial& trial, double view_weight, DetectReport& result)
 {
-    constexpr const char* names[] = {"not found", "present", "another message", "another key or setting"};
-    return names[static_cast<int>(verdict)];
+    const Judgement::Match& match = *trial.judgement.match;
+    const Bits coded = encode(options.expected[match.candidate], result.carriers);
+    int read = 0;
+    int matches = 0;
+    for (std::size_t i = 0; i < coded.size(); ++i)
+        if (result.soft[i] != 0) {
+            ++read;
+            matches += static_cast<int>(coded[i] == result.bits[i]);
+        }
+    result.detection_ratio = (matches + 0.5 * (result.carriers - read)) / result.carriers;
+    result.p_binomial = std::min(1.0, binomial_tail(read, matches) * static_cast<double>(options.expected.size()) /
+                                          view_weight / trial.count.weight);
+    if (options.expected.size() > 1) {
+        result.candidate = static_cast<int>(match.candidate);
+        result.runner_up_p = probability(trial.after_share(match.runner_up));
+    }
 }
+
+/// What each layer said by itself.
+void tell_layers(const DetectOptions& options, const Trial& trial, DetectReport& result)
+{
+    for (std::size_t i = 0; i < trial.layers.size(); ++i) {
+        LayerReport one;
+        one.method = trial.layers[i].method;
+        one.p_message = probability(trial.after_share(trial.judgement.of_layer[i].log10_p));
+        if (options.expected.size() == 1)
+            one.p_value = probability(trial.after_share(trial.judgement.match_of_layer[i]));
+        if (const auto& presence = trial.layers[i].readings.presence) {
+            one.presence = probability(trial.after_share(*presence));
+            result.presence = probability(trial.log10_presence());
+        }
+        result.layers.push_back(one);
+    }
+}
+
+DetectReport told(const DetectOptions& options, const Search& search, const std::vector<int>& site_of_vertex)
+{
+    const Trial& trial = search.best;
+    const Judgement::View& view = trial.judgement.views[trial.judgement.view];
+    const LayerReading& layer = trial.layers[view.layer];
+    const Reading& way = layer.readings.ways[view.way];
+    DetectReport result;
+    result.method = options.carriers.method;
+    result.statistic = options.carriers.statistic;
+    result.carriers = trial.count.carriers;
+    result.trim = trial.trim;
+    result.soft = summed(view.soft, result.carriers);
+    result.bits = hard_bits(result.soft);
+    result.samples = way.samples;
+    conclude(options, search, result);
+    if (trial.judgement.match)
+        count_matches(options, trial, view.weight, result);
+    tell_layers(options, trial, result);
+    result.smoothing_rounds = layer.readings.smoothing_rounds;
+    result.orientation = way.orientation;
+    result.carrier_of_vertex = carrier_of_vertex(layer.readings, way, site_of_vertex);
+    for (const LayerReading& other : trial.layers)
+        if (result.carrier_of_vertex.empty())
+            result.carrier_of_vertex =
+                carrier_of_vertex(other.readings, other.readings.ways[other.readings.blind], site_of_vertex);
+    result.warnings = trial.warnings;
+    return result;
+}
+
+} // namespace
 
 DetectReport detect_by(const LayerReader& read, const std::vector<int>& site_of_vertex, double share, const Key& key,
                        const DetectOptions& options, const Progress& progress)
 {
     options.carriers.check();
     Stopwatch watch;
-    const bool asked = !options.expected.empty();
-    std::vector<Count> counts = counts_to_try(options);
-    for (Count& count : counts)
-        count.weight *= share;
-    if (std::none_of(counts.begin(), counts.end(),
-                     [&](const Count& count) { return one_fits(options.expected, count.carriers); }))
-        throw Error("The expected message does not fit: " + need(options.expected.front()) + ", but Bits is " +
-                    std::to_string(counts.front().carriers) + ". Bits must be that of embedding; 0 finds it.");
-
-    std::optional<Trial> best;
-    double log10_any = 0;
-    double log10_expected = 0;
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-        report(progress, 10 + 80 * static_cast<int>(i) / static_cast<int>(counts.size()), "Reading");
-        if (!one_fits(options.expected, counts[i].carriers))
-            continue;
-        Trial trial = try_count(read, key, options, counts[i]);
-        log10_any = std::min(log10_any, trial.log10_p(false));
-        if (asked)
-            log10_expected = std::min(log10_expected, trial.log10_p(true));
-        const auto loudness = [asked](const Trial& t) {
-            return asked ? std::min(t.log10_p(true), t.log10_p(false)) : t.log10_p(false);
-        };
-        if (!best || loudness(trial) < loudness(*best))
-            best = std::move(trial);
-        if (log10_any < sure || log10_expected < sure)
-            break; // weights were fixed before looking, so to stop here is no choice
-    }
-
-    const Judgement& judgement = best->judgement;
-    const Judgement::View& view = judgement.views[judgement.view];
-    const LayerReading& layer = best->layers[view.layer];
-    const Reading& way = layer.readings.ways[view.way];
-    DetectReport result;
-    result.method = options.carriers.method;
-    result.statistic = options.carriers.statistic;
-    result.carriers = best->count.carriers;
-    result.trim = best->trim;
-    result.soft.assign(view.soft.begin(), view.soft.begin() + result.carriers);
-    for (std::size_t i = result.carriers; i < view.soft.size(); ++i)
-        result.soft[i % result.carriers] += view.soft[i];
-    result.bits = hard_bits(result.soft);
-    result.samples = way.samples;
-    conclude(options, *best, log10_any, log10_expected, result);
-    if (asked) {
-        const Bits coded = encode(options.expected[judgement.match->candidate], result.carriers);
-        const int matches = matching_bits(coded, result.bits);
-        result.detection_ratio = static_cast<double>(matches) / result.carriers;
-        result.p_binomial =
-            std::min(1.0, binomial_tail(result.carriers, matches) * static_cast<double>(options.expected.size()) /
-                              view.weight / best->count.weight);
-        if (options.expected.size() > 1) {
-            result.candidate = static_cast<int>(judgement.match->candidate);
-            result.runner_up_p = probability(judgement.match->runner_up);
-        }
-    }
-    for (std::size_t i = 0; i < best->layers.size(); ++i) {
-        LayerReport one;
-        one.method = best->layers[i].method;
-        one.p_message = probability(judgement.of_layer[i].log10_p);
-        if (options.expected.size() == 1)
-            one.p_value = probability(judgement.match_of_layer[i]);
-        if (const auto& presence = best->layers[i].readings.presence) {
-            one.presence = probability(*presence);
-            result.presence = std::min(result.presence.value_or(1), *one.presence / best->count.weight);
-        }
-        result.layers.push_back(one);
-    }
-    result.smoothing_rounds = layer.readings.smoothing_rounds;
-    result.orientation = way.orientation;
-    result.carrier_of_vertex = carrier_of_vertex(layer.readings, way, site_of_vertex);
-    for (const LayerReading& other : best->layers)
-        if (result.carrier_of_vertex.empty())
-            result.carrier_of_vertex =
-                carrier_of_vertex(other.readings, other.readings.ways[other.readings.blind], site_of_vertex);
-    result.warnings = best->warnings;
+    DetectReport result = told(options, try_counts(read, key, options, share, progress), site_of_vertex);
     result.seconds["detection"] = watch.lap();
     report(progress, 100, "Done");
     return result;

@@ -34,15 +34,6 @@ Bits repeated(const Bits& coded, std::size_t length)
     return all;
 }
 
-/// The soft value of each coded bit: the sum over the layers that the view holds.
-std::vector<double> summed(const std::vector<double>& soft, int carriers)
-{
-    std::vector<double> sum(soft.begin(), soft.begin() + carriers);
-    for (std::size_t i = carriers; i < soft.size(); ++i)
-        sum[i % carriers] += soft[i];
-    return sum;
-}
-
 /// Codes by length and kind; making one takes longer than using it.
 class Codes {
 public:
@@ -92,11 +83,149 @@ Judgement::Read read(const Judgement::View& view, int carriers, Codes& codes)
     return best;
 }
 
+/// How many kinds of views there are, each with the same share of the doubt: each layer alone, and each behind the first.
+double kinds_of_views(const std::vector<LayerReading>& layers)
+{
+    return static_cast<double>(2 * layers.size() - 1);
+}
+
+/// What is judged: the layers, and what they come to so far.
+class Judge {
+public:
+    Judge(const std::vector<LayerReading>& layers, int carriers)
+        : layers_(layers), carriers_(carriers), kinds_(kinds_of_views(layers)), codes_(carriers)
+    {
+        result.views = views_of(layers);
+    }
+
+    /// Looks for any message, in the blind views. No mask had a part in their choice, so each has the weight of all ways.
+    void read_blind()
+    {
+        result.of_layer.resize(layers_.size());
+        result.view = std::find_if(result.views.begin(), result.views.end(),
+                                   [](const Judgement::View& view) { return view.blind; }) -
+                      result.views.begin();
+        for (std::size_t v = 0; v < result.views.size(); ++v) {
+            Judgement::View view = result.views[v];
+            if (!view.blind)
+                continue;
+            view.weight = 1 / kinds_;
+            Judgement::Read found = read(view, carriers_, codes_);
+            if (is_alone(view))
+                result.of_layer[view.layer] = {by_itself(found.log10_p), found.bits, found.kind};
+            if (found.log10_p < result.best.log10_p) {
+                result.best = std::move(found);
+                result.view = v;
+            }
+        }
+    }
+
+    /// Looks for one message, in all views.
+    void match_one(const Message& expected)
+    {
+        const Bits coded = codes_.encode(expected);
+        result.match_of_layer.assign(layers_.size(), 0);
+        double best = 0;
+        std::size_t loudest = result.view;
+        const auto consider = [&](double log10_p, std::size_t view, bool alone) {
+            if (alone) {
+                double& of_layer = result.match_of_layer[result.views[view].layer];
+                of_layer = std::min(of_layer, by_itself(log10_p));
+            }
+            if (log10_p < best) {
+                best = log10_p;
+                loudest = view;
+            }
+        };
+        for (std::size_t v = 0; v < result.views.size(); ++v) {
+            const Judgement::View& view = result.views[v];
+            const bool alone = is_alone(view);
+            const auto& knows_better = layers_[view.layer].readings.match;
+            if (!alone || !knows_better)
+                consider(SignTail(view.soft).log10_p(agreement(repeated(coded, view.soft.size()), view.soft)) -
+                             std::log10(view.weight),
+                         v, alone);
+            else if (view.blind) // once for all ways
+                consider(knows_better(masked(coded, layers_[view.layer].mask)) + std::log10(kinds_), v, true);
+        }
+        conclude({0, best, 0}, loudest);
+    }
+
+    /// Looks for each of a list, in the blind views, and by the count alone: the bound of Chernoff costs a search for
+    /// each.
+    void match_list(const std::vector<Message>& expected)
+    {
+        const double many = std::log10(static_cast<double>(expected.size()));
+        std::vector<SignTail> tails;
+        for (const Judgement::View& view : result.views)
+            tails.emplace_back(view.soft);
+        result.match_of_layer.assign(layers_.size(), 0);
+        Judgement::Match match;
+        double best = 1;
+        Bits best_coded;
+        std::size_t loudest = result.view;
+        for (std::size_t c = 0; c < expected.size(); ++c) {
+            if (static_cast<int>(expected[c].bits.size()) > carriers_)
+                continue; // no such mesh can hold it; it counts all the same
+            const Bits coded = codes_.encode(expected[c]);
+            if (coded == best_coded)
+                continue; // the same line again is no runner-up
+            double p = 0;
+            std::size_t at = result.view;
+            for (std::size_t v = 0; v < result.views.size(); ++v) {
+                const std::vector<double>& soft = result.views[v].soft;
+                if (!result.views[v].blind)
+                    continue;
+                const double here =
+                    tails[v].log10_count(agreement(repeated(coded, soft.size()), soft)) + std::log10(kinds_);
+                if (here < p) {
+                    p = here;
+                    at = v;
+                }
+            }
+            if (p < best) {
+                match.runner_up = std::min(0.0, best + many);
+                best = p;
+                best_coded = coded;
+                match.candidate = c;
+                loudest = at;
+            } else {
+                match.runner_up = std::min(match.runner_up, p + many);
+            }
+        }
+        match.log10_p = std::min(0.0, best + many);
+        conclude(match, loudest);
+    }
+
+    Judgement result;
+
+private:
+    [[nodiscard]] bool is_alone(const Judgement::View& view) const
+    {
+        return static_cast<int>(view.soft.size()) == carriers_;
+    }
+
+    /// log10 p of a layer without the share that all views of all layers have.
+    [[nodiscard]] double by_itself(double log10_p) const { return std::min(0.0, log10_p - std::log10(kinds_)); }
+
+    void conclude(const Judgement::Match& match, std::size_t loudest)
+    {
+        result.match = match;
+        if (match.log10_p < result.best.log10_p)
+            result.view = loudest;
+    }
+
+    const std::vector<LayerReading>& layers_;
+    int carriers_;
+    double kinds_;
+    Codes codes_;
+};
+
 } // namespace
 
 std::vector<Judgement::View> views_of(const std::vector<LayerReading>& layers)
 {
-    const double shares = static_cast<double>(2 * layers.size() - 1);
+    const double shares = kinds_of_views(layers);
     std::vector<Judgement::View> views;
     const auto soft_of = [&](std::size_t layer, std::size_t way, bool likelihoods) {
         const LayerReading& read = layers[layer];
@@ -121,99 +250,23 @@ std::vector<Judgement::View> views_of(const std::vector<LayerReading>& layers)
     return views;
 }
 
+std::vector<double> summed(const std::vector<double>& soft, int carriers)
+{
+    std::vector<double> sum(soft.begin(), soft.begin() + carriers);
+    for (std::size_t i = carriers; i < soft.size(); ++i)
+        sum[i % carriers] += soft[i];
+    return sum;
+}
+
 Judgement judge(const std::vector<LayerReading>& layers, int carriers, const std::vector<Message>& expected)
 {
-    Judgement result;
-    result.views = views_of(layers);
-    const double shares = static_cast<double>(2 * layers.size() - 1);
-    const double own_share = std::log10(1 / shares);
-    Codes codes(carriers);
-    result.view =
-        std::find_if(result.views.begin(), result.views.end(), [](const Judgement::View& view) { return view.blind; }) -
-        result.views.begin();
-
-    result.of_layer.resize(layers.size());
-    std::vector<std::size_t> view_of_layer(layers.size()); // the blind one of this layer alone
-    for (std::size_t v = 0; v < result.views.size(); ++v) {
-        Judgement::View view = result.views[v];
-        if (!view.blind)
-            continue;
-        view.weight = 1 / shares; // no mask had a part in the choice of a blind way, so it has the weight of all
-        Judgement::Read found = read(view, carriers, codes);
-        const bool alone = static_cast<int>(view.soft.size()) == carriers;
-        if (alone) {
-            view_of_layer[view.layer] = v;
-            result.of_layer[view.layer] = {std::min(0.0, found.log10_p + own_share), found.bits, found.kind};
-        }
-        if (found.log10_p < result.best.log10_p) {
-            result.best = std::move(found);
-            result.view = v;
-        }
-    }
-    if (expected.empty())
-        return result;
-
-    const double count = static_cast<double>(expected.size());
-    const double many = std::log10(count);
-    std::vector<SignTail> tails;
-    for (const Judgement::View& view : result.views)
-        tails.emplace_back(view.soft);
-    Judgement::Match match;
-    match.log10_p = match.runner_up = 0;
-    double best = 1;
-    Bits best_coded;
-    result.match_of_layer.assign(layers.size(), 0);
-    std::size_t loudest = result.view;
-    for (std::size_t c = 0; c < expected.size(); ++c) {
-        if (static_cast<int>(expected[c].bits.size()) > carriers)
-            continue; // no such mesh can hold it; it counts all the same
-        const Bits coded = codes.encode(expected[c]);
-        if (coded == best_coded)
-            continue; // the same line again is no runner-up
-        double p = 0;
-        std::size_t at = 0;
-        for (std::size_t v = 0; v < result.views.size(); ++v) {
-            const Judgement::View& view = result.views[v];
-            const bool alone = static_cast<int>(view.soft.size()) == carriers;
-            if (expected.size() > 1 ? !view.blind : alone && layers[view.layer].readings.match)
-                continue; // its method knows better
-            const double total = agreement(repeated(coded, view.soft.size()), view.soft);
-            // For a list the count alone: the bound of Chernoff costs a search for each.
-            const double weight = expected.size() > 1 ? 1 / shares : view.weight;
-            const double here =
-                (expected.size() > 1 ? tails[v].log10_count(total) : tails[v].log10_p(total)) - std::log10(weight);
-            if (here < p) {
-                p = here;
-                at = v;
-            }
-            if (expected.size() == 1 && alone)
-                result.match_of_layer[view.layer] = std::min(result.match_of_layer[view.layer], here + own_share);
-        }
-        if (expected.size() == 1)
-            for (std::size_t layer = 0; layer < layers.size(); ++layer)
-                if (layers[layer].readings.match) {
-                    const double here = layers[layer].readings.match(masked(coded, layers[layer].mask));
-                    result.match_of_layer[layer] = std::min(result.match_of_layer[layer], here);
-                    if (here - own_share < p) {
-                        p = here - own_share;
-                        at = view_of_layer[layer];
-                    }
-                }
-        if (p < best) {
-            match.runner_up = std::min(0.0, best + many);
-            best = p;
-            best_coded = coded;
-            match.candidate = c;
-            loudest = at;
-        } else {
-            match.runner_up = std::min(match.runner_up, p + many);
-        }
-    }
-    match.log10_p = std::min(0.0, best + many);
-    result.match = match;
-    if (match.log10_p < result.best.log10_p)
-        result.view = loudest;
-    return result;
+    Judge judge(layers, carriers);
+    judge.read_blind();
+    if (expected.size() == 1)
+        judge.match_one(expected.front());
+    else if (!expected.empty())
+        judge.match_list(expected);
+    return std::move(judge.result);
 }
 
 } // namespace vcg_ext

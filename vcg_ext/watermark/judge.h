@@ -54,6 +54,9 @@ struct Judgement {
 /// with m^2 = mean z^2 - 1, at least 0, which looks at magnitudes alone.
 [[nodiscard]] std::vector<Judgement::View> views_of(const std::vector<LayerReading>& layers);
 
+/// The soft value of each coded bit: the sum over the layers that a view holds.
+[[nodiscard]] std::vector<double> summed(const std::vector<double>& soft, int carriers);
+
 /// Weighs expected messages, and decodes what is there without them. Of a list, messages of more bits than carriers are
 /// passed over, but count among the candidates.
 /// \param carriers of each layer

@@ -59,7 +59,7 @@ void look_at_pieces(const PieceReader& read, const std::vector<Part>& pieces, De
             continue;
         }
         reports.push_back(told(piece, found));
-        if (!was_read(found) || (was_read(result) && best_p(found) >= best_p(result)))
+        if (!was_read(found) || (was_read(result) && !says_more(found, result)))
             continue;
         found.verdict = "part " + std::to_string(i + 1) + " of " + std::to_string(count) + " (" +
                         percent(piece.area_share) + " of the area): " + found.verdict;

@@ -3,7 +3,6 @@
 #include "../method/marking.h"
 #include "../payload/message.h"
 
-#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -46,7 +45,8 @@ enum class Verdict {
     NotFound,       ///< no mark of this key: unmarked, or destroyed
     Present,        ///< the expected message; without one, a message that is verified
     AnotherMessage, ///< a verified message, but not the expected one
-    AnotherKey      ///< the carriers are far stronger than an unmarked mesh's, but hold no message of this key
+    AnotherKey,     ///< the carriers are far stronger than an unmarked mesh's, but hold no message of this key
+    NoMessage       ///< a mark of this key, but its message does not come out
 };
 
 [[nodiscard]] const char* name(Verdict verdict);
@@ -91,21 +91,22 @@ struct DetectReport {
     /// Per carrier how strongly it says 1 (positive) or 0: in standard errors; Waves: log-likelihood ratios; Layered:
     /// log-likelihood ratios of both layers.
     std::vector<double> soft;
-    std::vector<int> samples;              ///< per carrier: vertices in it; empty where carriers are no sets of those
-    int pieces = 1;                        ///< connected parts of the mesh
-    int loose_pieces = 0;                  ///< of them passed over
-    std::optional<double> detection_ratio; ///< carriers that match those of the expected message, over all
+    std::vector<int> samples; ///< per carrier: vertices in it; empty where carriers are no sets of those
+    int pieces = 1;           ///< connected parts of the mesh
+    int loose_pieces = 0;     ///< of them passed over
+    /// Carriers that match those of the expected message, over all; one that the surface says nothing of counts a half.
+    std::optional<double> detection_ratio;
     /// With an expected message: a true upper bound of the probability that a mesh without a mark of this key, or
     /// marked with another, matches as well by chance. Of a list: that any of its messages does.
     std::optional<double> p_value;
-    std::optional<double> p_binomial;  ///< the same by counting matches alone, as the literature does
+    std::optional<double> p_binomial;  ///< the same by counting matches of what is read, as the literature does
     std::optional<bool> present;       ///< p_value below 1e-6, and no other message verified
     double p_message = 1;              ///< that such a mesh gives any message as well as the one that was read
     bool verified = false;             ///< p_message below 1e-6
     std::optional<double> presence;    ///< that such a mesh looks as marked, whatever the message; Waves and Layered
     std::optional<int> candidate;      ///< number of the best of a list of expected messages, from 0
     std::optional<double> runner_up_p; ///< p_value of the next best of the list
-    /// 0 not found, 1 present, 2 another message, 3 another key or setting
+    /// 0 not found, 1 present, 2 another message, 3 another key or setting, 4 no message
     Verdict finding = Verdict::NotFound;
     std::string verdict;                            ///< the same in plain words, with figures
     std::vector<LayerReport> layers;                ///< what each layer said by itself
@@ -121,10 +122,7 @@ struct DetectReport {
     std::vector<int> carrier_of_vertex;
 };
 
-/// The smaller one of what it says of the expected message and of any.
-[[nodiscard]] inline double best_p(const DetectReport& report)
-{
-    return std::min(report.p_value.value_or(1), report.p_message);
-}
+/// Whether a reading says more than another: by what it found, and by its p where that is the same.
+[[nodiscard]] bool says_more(const DetectReport& reading, const DetectReport& than);
 
 } // namespace vcg_ext
