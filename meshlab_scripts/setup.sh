@@ -16,7 +16,7 @@ packages=(
     cmake g++ ninja-build ccache pkg-config xz-utils ca-certificates
     qtbase5-dev libqt5opengl5-dev libglew-dev libglu1-mesa-dev
     libeigen3-dev libceres-dev libboost-dev libsodium-dev nlohmann-json3-dev
-    meshlab libcgal-demo python3 python3-venv
+    meshlab libcgal-demo draco python3 python3-venv
     libgtest-dev libbenchmark-dev clang-format clang-tidy
     xvfb xauth libgl1-mesa-dri openbox xdotool imagemagick locales
 )
@@ -37,13 +37,14 @@ source_entries() {
     local file
     for file in /etc/apt/sources.list.d/*.sources; do
         [ -f "$file" ] || continue
-        grep -v '^#' "$file" | awk -v RS= '
+        awk -v RS= '
+            { gsub(/(^|\n)#[^\n]*/, "") }
             /(^|\n)Types:[^\n]*deb/ && /(^|\n)Suites:([^\n]*[ \t])?bookworm([ \t\n]|$)/ && !/(^|\n)Enabled: *no/ {
                 sub(/Types:[^\n]*/, "Types: deb-src")
                 sub(/Suites:[^\n]*/, "Suites: bookworm sid")
                 sub(/Components:[^\n]*/, "Components: main")
                 print $0 "\n"
-            }'
+            }' "$file"
     done >"$1/debian.sources"
     cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null |
         sed -nE 's/^deb[ \t]+((\[[^]]*\][ \t]+)?[^ \t]+)[ \t]+bookworm[ \t].*/deb-src \1 bookworm main\ndeb-src \1 sid main/p' \
@@ -87,10 +88,10 @@ fetch_sources() {
 
 make_venv() {
     local wanted have=$build/venv/requirements.txt
-    wanted=$(cat meshlab_scripts/requirements.txt meshlab_scripts/pyproject.toml)
+    wanted=$(echo "$here"; cat meshlab_scripts/requirements.txt meshlab_scripts/pyproject.toml) # meshmark is not copied
     [ "$wanted" != "$(cat "$have" 2>/dev/null)" ] || return 0
     say "installing pymeshlab and meshmark into build/venv"
-    [ -x "$build/venv/bin/pip" ] || /usr/bin/python3 -m venv "$build/venv"
+    "$build/venv/bin/pip" --version >/dev/null 2>&1 || /usr/bin/python3 -m venv --clear "$build/venv" # a moved one is dead
     "$build/venv/bin/pip" install --quiet --disable-pip-version-check -r meshlab_scripts/requirements.txt
     printf '%s\n' "$wanted" >"$have"
 }
