@@ -13,6 +13,10 @@ from PIL import Image
 ROOT = Path(__file__).resolve().parents[1]
 COLUMNS = ["table", "bits", "carriers", "list", "esn0_db", "error_rate", "maximum_likelihood", "normal_approximation"]
 TARGET = 1e-2
+# Of a code: its colour, whose brightness differs too, and its marker.
+LOOKS = [("#000000", "v"), ("#b2182b", "o"), ("#08306b", "s"), ("#d95f0e", "D"), ("#1b7837", "^"), ("#636363", "P"),
+         ("#762a83", "X"), ("#5ab4ac", "*")]  # fmt: skip
+HOLLOW = {"markerfacecolor": "white", "linestyle": "none", "markersize": 8, "zorder": 1}
 
 
 def read(paths: list[Path]) -> pd.DataFrame:
@@ -23,29 +27,37 @@ def read(paths: list[Path]) -> pd.DataFrame:
 
 def draw(rows: pd.DataFrame, output: Path) -> None:
     """Left: beside maximum likelihood over all words. Right: beside the normal approximation."""
-    figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4), sharey=True)
+    figure, (left, right) = plt.subplots(1, 2, figsize=(12, 4), sharey=True, layout="constrained")
+    codes = sorted(
+        set(rows[rows.table.isin(["small", "curve"])][["bits", "carriers"]].itertuples(index=False, name=None))
+    )
+    look = dict(zip(codes, LOOKS, strict=False))
     small = rows[rows.table == "small"]
-    for color, ((bits, carriers), curve) in enumerate(small.groupby(["bits", "carriers"])):
-        left.semilogy(curve.esn0_db, curve.maximum_likelihood, f"C{color}o", markerfacecolor="none", markersize=8)
-        left.semilogy(curve.esn0_db, curve.error_rate, f"C{color}-", label=f"{bits} bits in {carriers}")
-    left.set_title("list of 32; circles: maximum likelihood", fontsize=10)
+    for code, curve in small.groupby(["bits", "carriers"]):
+        color, marker = look[code]
+        left.semilogy(
+            curve.esn0_db, curve.error_rate, "-", color=color, marker=marker, label="{} bits in {}".format(*code)
+        )
+        left.semilogy(curve.esn0_db, curve.maximum_likelihood, marker=marker, color=color, **HOLLOW)
+    left.set_title("list of 32; hollow: maximum likelihood", fontsize=10)
 
     curves = rows[rows.table == "curve"]
-    styles = {1: ":", 32: "-", 128: "x"}
-    for color, ((bits, carriers), group) in enumerate(curves.groupby(["bits", "carriers"])):
+    for code, group in curves.groupby(["bits", "carriers"]):
+        color, marker = look[code]
         for size, curve in group.groupby("list"):
-            label = f"{bits} bits in {carriers}" if size == 32 else None
-            right.semilogy(curve.esn0_db, curve.error_rate, styles[size], color=f"C{color}", label=label)
+            label = "{} bits in {}".format(*code) if size == 32 else None
+            style = {1: {"linestyle": ":"}, 32: {"marker": marker}, 128: {"marker": marker, **HOLLOW}}[size]
+            right.semilogy(curve.esn0_db, curve.error_rate, color=color, label=label, **style)
         ideal = group.drop_duplicates("esn0_db")
-        right.semilogy(ideal.esn0_db, ideal.normal_approximation, "--", color=f"C{color}", linewidth=1)
-    right.set_title("list of 32; dotted 1; crosses 128; dashed: normal approximation", fontsize=10)
+        right.semilogy(ideal.esn0_db, ideal.normal_approximation, "--", color=color, linewidth=1)
+    right.set_title("list of 32; dotted 1; hollow 128; dashed: normal approximation", fontsize=10)
     for axes in (left, right):
         axes.axhline(TARGET, color="gray", linewidth=0.5)
         axes.set(xlabel="Es/N0 of a carrier, dB", ylim=(3e-4, 1))
         axes.grid(alpha=0.3)
-        axes.legend()
     left.set_ylabel("messages read wrong")
-    figure.tight_layout()
+    lines = {name: line for axes in (left, right) for line, name in zip(*axes.get_legend_handles_labels(), strict=True)}
+    figure.legend(lines.values(), lines.keys(), loc="outside right upper")
     output.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(output, dpi=75)
     with Image.open(output) as picture:
