@@ -8,6 +8,7 @@ Writes CSV, tables beside the thesis' figures, plots and one report.md. A stoppe
     build/venv/bin/python meshlab_scripts/evaluate.py all      # every protocol, and the programs of programs.toml
 """
 
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
@@ -20,6 +21,7 @@ from evaluation.report import write_report
 from evaluation.results import NoResults
 from evaluation.schedule import run_missing
 from evaluation.store import Store
+from meshmark import MeshmarkError
 from meshmark import plugin as loaded
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -65,7 +67,7 @@ class Run:
             try:
                 page = self.protocol(name, folder / name)
                 said[name] = f"[report]({page.relative_to(folder)})"
-            except NoResults as error:
+            except (NoResults, ProtocolError) as error:
                 said[name] = str(error)
         programs = [program for program in read_programs() if not only or program.name in only]
         outcomes = run_programs(programs, self.site.plugin, folder / "programs", look_only=self.report_only)
@@ -91,20 +93,21 @@ def main(
     report_only: Annotated[bool, typer.Option("--report-only", help="run no job; report what is there")] = False,
 ) -> None:
     """Runs what is missing of a protocol, or of all, and writes the report."""
+    unknown = set(only or []) - {*NAMES, *(program.name for program in read_programs())}
+    if unknown:
+        raise typer.BadParameter(f"there is no {', '.join(sorted(unknown))} among the protocols and programs.")
     site = Site(meshes.resolve(), plugin.resolve(), (work / "marked").resolve())
-    loaded.load(site.plugin)
-    site.cache.mkdir(parents=True, exist_ok=True)
-    store = Store(work / "results.sqlite")
-    if retry:
-        store.forget_failed()
-    run = Run(site, store, work, keys, mesh, scheduler, report_only)
     try:
-        print(run.everything(only, report) if protocol == "all" else run.protocol(protocol, report))
-    except (ProtocolError, NoResults) as error:
+        loaded.load(site.plugin)
+        site.cache.mkdir(parents=True, exist_ok=True)
+        with closing(Store(work / "results.sqlite")) as store:
+            if retry:
+                store.forget_failed()
+            run = Run(site, store, work, keys, mesh, scheduler, report_only)
+            print(run.everything(only, report) if protocol == "all" else run.protocol(protocol, report))
+    except (MeshmarkError, ProtocolError, NoResults) as error:
         typer.echo(f"evaluate.py: {error}", err=True)
         raise typer.Exit(2) from None
-    finally:
-        store.close()
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ from matplotlib.ticker import MaxNLocator
 from .curves import error_rates, false_positives
 from .jobs import METHODS
 from .protocol import Spec
-from .results import select
+from .results import require, select
 from .tables import FOUND
 
 mpl.use("Agg")
@@ -65,6 +65,8 @@ def figure(spec: Spec, frame: pd.DataFrame, path: Path) -> bool:
         return False
     panels = spec.get("panels", "mesh")
     x = spec["x"]
+    shown = list(spec["ys"].values()) if "ys" in spec else [spec["y"], spec.get("lines", "method")]
+    require(chosen, [x, panels, *shown], f"figure {spec['name']!r}")
     axes = _panels(len(_values(chosen, panels)))
     for axis, panel in zip(axes, _values(chosen, panels), strict=True):
         rows = chosen[chosen[panels] == panel]
@@ -78,8 +80,8 @@ def figure(spec: Spec, frame: pd.DataFrame, path: Path) -> bool:
                 _line(axis, rows[rows[lines] == value], x, spec["y"], name, _style(name, number))
         axis.set_title(_name(panels, panel))
         attack = chosen["attack"].iloc[0]
-        axis.set_xlabel((AMOUNTS if x == "amount" else ITERATIONS).get(attack, LABELS[x]))
-        axis.set_ylabel(spec.get("label") or LABELS[spec["y"]])
+        axis.set_xlabel((AMOUNTS if x == "amount" else ITERATIONS).get(attack, LABELS.get(x, x)))
+        axis.set_ylabel(spec.get("label") or LABELS.get(spec["y"], spec["y"]))
         if spec.get("y") == "detection_ratio":
             axis.set_ylim(min(0.35, chosen[spec["y"]].min() - 0.03), 1.03)
             axis.axhline(0.5, color="0.6", linewidth=0.6, linestyle=":")

@@ -46,6 +46,7 @@ class Job:
     original: bool = False  # the mark is also read with the unmarked mesh at hand
     payload: str = "bits"  # the message: as many bits as carriers, or an `id` of 32, which the key alone can prove
     unit: str = ""  # of the amount: the plugin's own, or `mean norm` where it is in distances from the centre
+    channel_digest: str = ""  # of the code that a channel is made of; empty where the attack is the plugin's
 
     @property
     def name(self) -> str:
@@ -55,7 +56,9 @@ class Job:
     @property
     def mark(self) -> "Job":
         """The job that makes the mesh that this one attacks."""
-        return replace(self, kind="embed", attack="", amount=-1, iterations=-1, unit="", original=False)
+        return replace(
+            self, kind="embed", attack="", amount=-1, iterations=-1, unit="", channel_digest="", original=False
+        )
 
     @property
     def before(self) -> "Job":
@@ -85,9 +88,9 @@ class Site:
     cache: Path
 
 
-def digest(path: Path) -> str:
-    """A hash of a file's bytes."""
-    return hashlib.sha256(path.read_bytes()).hexdigest()[:20]
+def digest(*paths: Path) -> str:
+    """A hash of a file's bytes, or of several files', one after the other."""
+    return hashlib.sha256(b"".join(path.read_bytes() for path in paths)).hexdigest()[:20]
 
 
 def mesh_file(folder: Path, mesh: str) -> Path:

@@ -17,6 +17,7 @@ from .jobs import digest
 ROOT = Path(__file__).resolve().parents[2]
 NOT_RUN = "it was not run yet."
 LIST = ROOT / "meshlab_scripts" / "programs.toml"
+PYTHON = (ROOT / "meshlab_scripts", ROOT / "tests" / "benchmark")
 
 
 @dataclass(frozen=True)
@@ -92,9 +93,11 @@ def _run(words: list[str], output: Path, state: str) -> str:
 
 
 def _state(words: list[str], plugin: Path) -> str:
-    """Changes with the command, and with every file of ours that it names."""
-    files = [digest(path) for word in words if (path := ROOT / word).is_file()]
-    return hashlib.sha256("\0".join([*words, *files, digest(plugin)]).encode()).hexdigest()
+    """Changes with the command, with every file of ours that it names, and where one is Python with all of ours."""
+    files = [path for word in words if (path := ROOT / word).is_file()]
+    if any(path.suffix == ".py" for path in files):
+        files += sorted(path for folder in PYTHON for path in folder.rglob("*.py"))
+    return hashlib.sha256("\0".join([*words, digest(*files, plugin)]).encode()).hexdigest()
 
 
 def write_summary(protocols: dict[str, str], outcomes: list[Outcome], folder: Path) -> Path:

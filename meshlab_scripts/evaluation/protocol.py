@@ -24,6 +24,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
+from .channels import CHANNELS, code_digest
 from .jobs import METHODS, PAYLOADS, Job, digest, mesh_file
 
 Spec = dict[str, Any]
@@ -70,16 +71,19 @@ class Protocol:
     tables: list[Spec]
 
     def cases(self, meshes: Path, plugin: Path) -> list[Case]:
-        """All jobs of the protocol, in an order that follows from the file."""
+        """All jobs of the protocol, in an order that follows from the file.
+
+        :raises ProtocolError: where there is no such mesh
+        """
         plugin_digest = digest(plugin)
         cases = []
         for experiment in self.experiments:
             for mesh in experiment.get("meshes", self.meshes):
-                inputs = {
-                    "mesh": mesh,
-                    "mesh_digest": digest(mesh_file(meshes, mesh)),
-                    "plugin_digest": plugin_digest,
-                }
+                try:
+                    mesh_digest = digest(mesh_file(meshes, mesh))
+                except FileNotFoundError as error:
+                    raise ProtocolError(str(error)) from error
+                inputs = {"mesh": mesh, "mesh_digest": mesh_digest, "plugin_digest": plugin_digest}
                 for series, job in self._grid(experiment, inputs):
                     cases.append(Case(experiment["name"], series, job))
         return cases
@@ -124,7 +128,8 @@ class Protocol:
 def _amounts(spec: Spec) -> list[Spec]:
     """What an attack's jobs have of it, for each amount and number of iterations."""
     grid = itertools.product(spec.get("amounts", [-1]), spec.get("iterations", [-1]))
-    fixed = {"attack": spec["attack"], "unit": spec.get("unit", "")}
+    code = code_digest() if spec["attack"] in CHANNELS else ""
+    fixed = {"attack": spec["attack"], "unit": spec.get("unit", ""), "channel_digest": code}
     return [{**fixed, "amount": float(amount), "iterations": iterations} for amount, iterations in grid]
 
 
@@ -186,6 +191,8 @@ def _check(spec: Spec) -> None:
         _check_names(where, "attack", [figure["series"]] if "series" in figure else [], attacks)
         if ("y" in figure) == ("ys" in figure):
             raise ProtocolError(f"{where} needs either y or ys.")
+        if "ys" in figure and "label" not in figure:
+            raise ProtocolError(f"{where} has several ys, and needs a label for their axis.")
     for table in spec.get("tables", []):
         where = f"table {table.get('name', '?')!r}"
         _check_keys(where, table, TABLE)

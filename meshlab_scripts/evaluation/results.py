@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The results of a protocol as one tidy frame: a row for each case, sorted, the job's fields and then its results."""
 
+from collections.abc import Iterable
 from dataclasses import asdict
 
 import numpy as np
 import pandas as pd
 
-from .protocol import Case
+from .protocol import Case, ProtocolError
 from .store import Store
 
 CASE_FIELDS = ["experiment", "series"]
-INTERNAL = ["mesh_digest", "plugin_digest"]
+INTERNAL = ["mesh_digest", "plugin_digest", "channel_digest"]
 SORT = ["experiment", "mesh", "method", "bits", "strength", "limits", "kind", "series", "amount", "iterations", "key"]
 
 
@@ -47,6 +48,13 @@ def collect(cases: list[Case], store: Store) -> pd.DataFrame:
     given = [*CASE_FIELDS, *(name for name in asdict(cases[0].job) if name not in INTERNAL), "error"]
     measured = sorted({*frame.columns, "detection_ratio", "p_value"} - set(given))
     return frame.reindex(columns=[*given, *measured]).sort_values(SORT, ignore_index=True)
+
+
+def require(frame: pd.DataFrame, names: Iterable[str], where: str) -> None:
+    """:raises ProtocolError: where a figure or table shows what is no result"""
+    if missing := sorted(set(names) - set(frame.columns)):
+        there = ", ".join(sorted(frame.columns))
+        raise ProtocolError(f"{where} shows {', '.join(missing)}, but the results are {there}.")
 
 
 def split_times(frame: pd.DataFrame) -> tuple[pd.DataFrame, pd.DataFrame]:

@@ -7,7 +7,7 @@ import pandas as pd
 
 from .jobs import METHODS
 from .protocol import COLUMN_OPTIONS, Spec
-from .results import select
+from .results import require, select
 
 # Our meshes that are, or come close to, the thesis' own.
 COUNTERPARTS = {"bunny00": "Bunny", "fandisk": "Fandisk"}
@@ -31,6 +31,7 @@ def table(spec: Spec, frame: pd.DataFrame) -> str:
 
 
 def _measure(spec: Spec, frame: pd.DataFrame) -> dict[str, Cells]:
+    require(frame, [*spec["rows"], *(column["value"] for column in spec["columns"])], f"table {spec['name']!r}")
     rows = {}
     for row in select(frame, spec["experiment"])[spec["rows"]].drop_duplicates().itertuples(index=False):
         fixed = dict(zip(spec["rows"], row, strict=True))

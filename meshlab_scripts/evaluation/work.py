@@ -3,6 +3,7 @@
 
 import json
 import math
+import os
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -154,7 +155,7 @@ def _strength(job: Job, site: Site) -> float:
         return job.strength
     known = site.cache / f"{replace(job, key=0).name}.json"
     if not known.exists():
-        part = known.with_suffix(".part")
+        part = known.with_name(f".{os.getpid()}-{known.name}")
         part.write_text(json.dumps(_strongest(replace(job, key=0), site)), encoding="utf-8")
         part.replace(known)
     found = json.loads(known.read_text(encoding="utf-8"))

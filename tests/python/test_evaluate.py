@@ -8,6 +8,7 @@ import sqlite3
 import subprocess
 import sys
 import time
+import tomllib
 from dataclasses import replace
 from pathlib import Path
 
@@ -20,12 +21,14 @@ SCRIPTS = ROOT / "meshlab_scripts"
 sys.path.insert(0, str(SCRIPTS))
 
 from evaluation import work  # noqa: E402
+from evaluation.channels import CHANNELS  # noqa: E402
 from evaluation.curves import binomial_tail, equal_error_rate, false_positives  # noqa: E402
+from evaluation.figures import figure  # noqa: E402
 from evaluation.frames import WAYS, frames, shift  # noqa: E402
 from evaluation.jobs import Job, Site  # noqa: E402
 from evaluation.protocol import ProtocolError, read_protocol  # noqa: E402
 from evaluation.results import limits_in_words  # noqa: E402
-from evaluation.tables import found, robustness  # noqa: E402
+from evaluation.tables import found, robustness, table  # noqa: E402
 
 
 def command(protocol: str | Path, work: Path) -> list[str]:
@@ -231,6 +234,7 @@ def test_a_job_comes_after_the_one_that_it_needs() -> None:
         ('attacks = ["noise"]', 'attacks = ["noises"]', ["experiment 'e'", "'noises'", "noise"]),
         ('methods = ["ChoMean"]', 'methods = ["Cho"]', ["'Cho'", "ChoMean"]),
         ('experiment = "e"\nx', 'experiment = "d"\nx', ["figure 'f'", "'d'"]),
+        ('y = "detection_ratio"', "ys = { ours = 'msdm' }", ["figure 'f'", "a label"]),
         ("rows =", "row =", ["table 't'", "lacks rows"]),
         ("value =", "values =", ["column 'l'", "lacks value"]),
         ("columns = [", 'each = { value = "mrms" }\ncolumns = [', ["table 't'", "either columns or each"]),
@@ -252,6 +256,28 @@ def test_a_slip_in_a_protocol_is_refused(tmp_path: Path, right: str, wrong: str,
         read_protocol(path)
     for text in [str(path), *texts]:
         assert text in str(refused.value)
+
+
+def test_what_is_no_mesh_and_no_result_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "small.toml"
+    path.write_text(SMALL.replace("fandisk", "nowhere"), encoding="utf-8")
+    with pytest.raises(ProtocolError, match="No mesh 'nowhere'"):
+        read_protocol(path).cases(ROOT / "build/data/meshes", path)
+    row = {"experiment": ["e"], "error": [""], "kind": ["embed"], "mesh": ["fandisk"], "mrms": [1.0]}
+    with pytest.raises(ProtocolError, match="figure 'f' shows detection_ratio, method"):
+        figure({**tomllib.loads(SMALL)["figures"][0], "x": "mrms"}, pd.DataFrame(row), tmp_path / "f.png")
+    spec = tomllib.loads(SMALL.replace('value = "mrms"', 'value = "msdm"'))["tables"][0]
+    with pytest.raises(ProtocolError, match="table 't' shows msdm"):
+        table(spec, pd.DataFrame(row))
+
+
+def test_a_job_of_a_channel_knows_its_code() -> None:
+    meshes, plugin = ROOT / "build/data/meshes", ROOT / "build/meshlab-2025.07/libfilter_watermark.so"
+    cases = read_protocol(SCRIPTS / "protocols/smoke.toml").cases(meshes, plugin)
+    assert {case.job.attack in CHANNELS for case in cases} == {True, False}
+    for case in cases:
+        assert (case.job.channel_digest != "") == (case.job.attack in CHANNELS)
+        assert case.job.mark.channel_digest == ""
 
 
 def test_published_rates_stand_beside_ours() -> None:
