@@ -20,7 +20,8 @@ KEY = "swordfish-of-bad-input"
 SECONDS = 240  # for all filters on one mesh
 ATTACK = "apply_watermark_attack"
 MEASURE = "get_watermark_distortion"
-ATTACKS = 12
+DETECT_WITH_ORIGINAL = "get_watermark_with_original"
+ATTACKS = len(list((ROOT / "meshlab_scripts" / "attacks").glob("*.mlx")))  # each has a script
 Row = tuple[str, str, str, str]  # door, mesh, filter, answer
 
 
@@ -66,6 +67,7 @@ def through_pymeshlab(mesh: str, rows: "multiprocessing.Queue[list[Row]]") -> No
     for method in METHODS:
         call(f"Embed {method}", "apply_coord_watermark", True, method=method, key=KEY, message="ab", bits=16)
         call(f"Detect {method}", "get_watermark", False, method=method, key=KEY, expected="ab", bits=16)
+    call("Detect with Original", DETECT_WITH_ORIGINAL, False, original=0, key=KEY, expected="ab", bits=16)
     for attack in range(ATTACKS):
         amount = 0.05 if attack == 6 else -1.0  # Isosurface, coarsely
         call(f"Attack {attack}", ATTACK, True, attack=attack, amount=amount)
