@@ -123,6 +123,12 @@ TEST(KeyFromText, RefusesWhatIsEmptyOrMissing)
     EXPECT_THROW((void)key_from_text(""), Error);
     EXPECT_THROW((void)key_from_text("file:/no/such/file"), Error);
     EXPECT_THROW((void)key_from_text("file:/dev/null"), Error);
+    try {
+        (void)key_from_text("file:" + testing::TempDir());
+        FAIL() << "took a folder";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("cannot be read"), std::string::npos) << error.what();
+    }
     EXPECT_THROW((void)key_from_text("env:KEY_TEST_NO_SUCH_VARIABLE"), Error);
 }
 

@@ -54,8 +54,11 @@ Secret read_file(const std::string& path)
     std::ifstream file;
     file.rdbuf()->pubsetbuf(nullptr, 0); // its buffer would keep the bytes
     file.open(path, std::ios::binary);
-    if (!file)
+    const auto fail = [&path] {
         throw Error("The key file '" + path + "' cannot be read. Check its path and permissions.");
+    };
+    if (!file)
+        fail();
     Secret bytes;
     for (constexpr std::size_t piece = 4096; file;) {
         const std::size_t size = bytes.size();
@@ -63,6 +66,8 @@ Secret read_file(const std::string& path)
         file.read(bytes.data() + size, piece);
         bytes.resize(size + file.gcount());
     }
+    if (file.bad()) // a folder can be opened
+        fail();
     for (const char end : {'\n', '\r'}) // editors end the last line, and differ in how
         if (!bytes.empty() && bytes.back() == end)
             bytes.pop_back();
