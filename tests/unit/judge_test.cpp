@@ -66,6 +66,29 @@ TEST(Judge, TheKeyAloneFindsMessageLengthAndKind)
         }
 }
 
+TEST(Judge, TwoLayersProveNoMessageThatIsNotTheirs)
+{
+    // Words that the key alone does not look for: 48 bits in 64 carriers, and raw ones. One of 40 bits is near.
+    constexpr int carriers = 64;
+    Stream stream = seeded_stream(5, "judge-test");
+    const Bits mask(carriers, 0);
+    for (const char* text : {"museum", "castle", "bits:0110", "hex:0123456789ab"}) {
+        const Message message = read_message(text);
+        std::vector<LayerReading> layers;
+        for (const Method method : {Method::LM, Method::Geodesic}) {
+            layers.push_back({method, {}, mask});
+            std::vector<double>& soft = layers.back().readings.ways.emplace_back().soft;
+            for (const double s : noisy(encode(message, carriers), 0.2, stream))
+                soft.push_back(6 * s);
+        }
+        const Judgement judgement = judge(layers, carriers, {message});
+        EXPECT_GT(judgement.best.log10_p, -6) << text;
+        EXPECT_LT(judgement.match->log10_p, -30) << text;
+        layers.pop_back();
+        EXPECT_GT(judge(layers, carriers, {message}).best.log10_p, -6) << text;
+    }
+}
+
 TEST(Judge, SixteenBitsProveNothing)
 {
     Stream stream = seeded_stream(2, "judge-test");

@@ -60,6 +60,18 @@ private:
     std::map<std::pair<int, bool>, Code> codes_;
 };
 
+/// Whether a message is likelier than that the carriers hold any other word. Of one layer alone its p tells; two layers
+/// that agree on a word of another length, or on raw bits, prove the message whose word is the nearest, though it is not
+/// theirs. \param soft log-likelihood ratios
+bool explains(const Bits& coded, const std::vector<double>& soft, int bits)
+{
+    const double ln_2 = std::log(2.0);
+    double gain = -bits * ln_2;
+    for (std::size_t k = 0; k < soft.size(); ++k)
+        gain += ln_2 - std::log1p(std::exp(coded[k] ? -soft[k] : soft[k]));
+    return gain > 0;
+}
+
 /// The best message of all lengths that a reader with the key alone tries.
 Judgement::Read read(const Judgement::View& view, int carriers, Codes& codes)
 {
@@ -75,9 +87,11 @@ Judgement::Read read(const Judgement::View& view, int carriers, Codes& codes)
             continue; // not even if all signs were right
         const Code& code = codes(way.bits, way.kind);
         const Bits bits = code.decode(soft);
-        const Bits coded = repeated(code.encode(bits), view.soft.size());
-        const double p = log_any_message(tail.log10_p(agreement(coded, view.soft)), way.bits) - share;
-        if (p < best.log10_p)
+        const Bits coded = code.encode(bits);
+        const double total = agreement(repeated(coded, view.soft.size()), view.soft);
+        const double p = log_any_message(tail.log10_p(total), way.bits) - share;
+        const bool alone = view.soft.size() == soft.size();
+        if (p < best.log10_p && (alone || explains(coded, soft, way.bits)))
             best = {p, bits, way.kind};
     }
     return best;
