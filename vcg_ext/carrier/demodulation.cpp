@@ -389,6 +389,13 @@ private:
 
 } // namespace
 
+void put_affine(Rows::RowXpr row, const Point& place, const Point& normal)
+{
+    row.head<3>() = normal;
+    for (int a = 0; a < 3; ++a)
+        row.segment<3>(3 + 3 * a) = place[a] * normal;
+}
+
 void to_unit_rms(Rows& columns)
 {
     for (Eigen::Index c = 0; c < columns.cols(); ++c) {

@@ -28,6 +28,9 @@ struct WaveAssumption {
     Eigen::MatrixXd per_bit;
 };
 
+/// The first twelve columns of a row of nuisance: how far shifts and linear maps of the copy move it along the normal.
+void put_affine(Rows::RowXpr row, const Point& place, const Point& normal);
+
 /// Scales each column to RMS 1, so that no unit decides how well the equations are conditioned.
 void to_unit_rms(Rows& columns);
 

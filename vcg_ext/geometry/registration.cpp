@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "registration.h"
 
+#include "../base/trimmed_mean.h"
 #include "edge_graph.h"
 #include "icp.h"
 #include "size.h"
@@ -165,17 +166,6 @@ std::vector<Scored> by_features(const FootSearch& original, const Likeness& like
     return best;
 }
 
-/// The farthest twentieth left out.
-double mean_of_most(std::vector<double> distances)
-{
-    std::sort(distances.begin(), distances.end());
-    distances.resize(distances.size() * 19 / 20);
-    double sum = 0;
-    for (const double distance : distances)
-        sum += distance;
-    return distances.empty() ? 0 : sum / static_cast<double>(distances.size());
-}
-
 /// How far samples lie from the original: mean distance, the farthest twentieth left out.
 double spread_of(const FootSearch& original, const SurfaceSamples& samples, const Eigen::Affine3d& pose, double reach)
 {
@@ -183,7 +173,7 @@ double spread_of(const FootSearch& original, const SurfaceSamples& samples, cons
     std::vector<double> distances;
     for (const Foot& foot : feet_of(original, samples.points, count, pose, reach))
         distances.push_back(foot.face < 0 ? reach : foot.distance);
-    return mean_of_most(std::move(distances));
+    return trimmed_mean(std::move(distances));
 }
 
 /// Whether a stretched pose is still the same pose: where little is left of a copy, twelve unknowns may let it collapse.
@@ -249,7 +239,7 @@ void Registrar::refine(const Surface& surface, Registration& registration) const
     registration.inside_out = side_of(original_, samples, feet, registration.affine) < 0;
 }
 
-double Registrar::follow(const Surface& surface, Registration& registration) const
+void Registrar::follow(const Surface& surface, Registration& registration) const
 {
     const SurfaceSamples samples = sample_surface(surface, samples_to_judge, "following");
     const IcpOptions options{8, true, 0.06 * size_, 0.03 * size_, 0.2};
@@ -258,7 +248,6 @@ double Registrar::follow(const Surface& surface, Registration& registration) con
     if (is_near(affine, registration.pose))
         registration.affine = affine;
     registration.residual = spread_of(original_, samples, registration.affine, far * size_) / likeness_.diagonal;
-    return registration.residual;
 }
 
 Registration Registrar::operator()(const Surface& surface, const Progress& progress) const
@@ -352,7 +341,7 @@ void Registrar::settle(const Surface& surface, Registration& registration) const
         for (const Foot& foot : feet_of(feet, samples.points, count, pose.inverse(), far * size))
             if (foot.face >= 0 && !foot.on_rim)
                 distances.push_back(foot.distance / registration.scale());
-        return mean_of_most(std::move(distances));
+        return trimmed_mean(std::move(distances));
     };
     registration.residual = spread(registration.affine) / likeness_.diagonal;
     registration.stretched_less =

@@ -60,8 +60,7 @@ public:
     void refine(const Surface& surface, Registration& registration) const;
 
     /// The same by fewer samples and in fewer steps, with twelve unknowns only: to compare originals that differ little.
-    /// \return Registration::residual
-    double follow(const Surface& surface, Registration& registration) const;
+    void follow(const Surface& surface, Registration& registration) const;
 
     [[nodiscard]] const FootSearch& original() const { return original_; }
     /// Radius of the ball of the original's volume, or of its area where it bounds nothing.

@@ -2,6 +2,7 @@
 #include "wave_copy.h"
 
 #include "../base/parallel.h"
+#include "../base/trimmed_mean.h"
 #include "../carrier/wave_flows.h"
 #include "../geometry/boundary.h"
 #include "../geometry/normals.h"
@@ -13,7 +14,6 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <optional>
 
 namespace vcg_ext {
@@ -137,12 +137,7 @@ bool seems_smoothed(const Copy& copy, const Registration& registration, const Po
         plain.push_back(std::abs(distance));
         explained.push_back(std::abs(distance - n.dot(at_foot(later, t, foot.weights) - foot.point)));
     }
-    const auto mean_of_most = [](std::vector<double> values) {
-        std::sort(values.begin(), values.end());
-        values.resize(values.size() * 19 / 20);
-        return std::accumulate(values.begin(), values.end(), 0.0);
-    };
-    return mean_of_most(explained) < gain * mean_of_most(plain);
+    return trimmed_mean(explained) < gain * trimmed_mean(plain);
 }
 
 /// The number of rounds that brings the original nearest to the copy: up a ladder as long as it falls, then by halving.
@@ -273,9 +268,7 @@ void WaveCopy::add(const Unsmoothed& way, const Surface& surface, double weight)
         field.roughness.push_back(std::abs(bend) * area[v]);
         state.normals.push_back(n);
         auto z = field.nuisance.row(row);
-        z.head<3>() = n;
-        for (int a = 0; a < 3; ++a)
-            z.segment<3>(3 + 3 * a) = p[a] * n;
+        put_affine(z, p, n);
         z.tail<3>() << 1, bend, (later[v] - way.smoothed[v]).dot(way.normals[v]);
     }
     to_unit_rms(field.nuisance);
@@ -344,9 +337,7 @@ void WaveCopy::look(const Copy& copy, const FootSearch& feet, State state)
         field.kind.push_back(samples.kind[i]);
         field.roughness.push_back(std::abs(at_foot(flows[0], t, foot.weights)) * samples.areas[i]);
         auto z = field.nuisance.row(row++);
-        z.head<3>() = n;
-        for (int a = 0; a < 3; ++a)
-            z.segment<3>(3 + 3 * a) = p[a] * n;
+        put_affine(z, p, n);
         z[12] = 1;
         for (std::size_t f = 0; f < flows.size(); ++f)
             z[13 + static_cast<Eigen::Index>(f)] = at_foot(flows[f], t, foot.weights);

@@ -152,9 +152,7 @@ public:
             field.places.push_back(places_[i]);
             field.roughness.push_back(std::abs(own[i]));
             auto z = field.nuisance.row(row);
-            z.head<3>() = normals_[i];
-            for (int a = 0; a < 3; ++a)
-                z.segment<3>(3 + 3 * a) = places_[i][a] * normals_[i];
+            put_affine(z, places_[i], normals_[i]);
             z.tail<2>() << 1, own[i];
         }
         to_unit_rms(field.nuisance);
