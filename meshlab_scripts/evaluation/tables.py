@@ -40,7 +40,8 @@ def _measure(spec: Spec, frame: pd.DataFrame) -> dict[str, Cells]:
             varied = {name: value for name, value in column.items() if name not in COLUMN_OPTIONS}
             chosen = select(frame, spec["experiment"], where={**fixed, **varied})
             values = chosen[column["value"]] * column.get("scale", 1)
-            cells.append((values.mean(), values.std()))
+            alike = len(values) > 1 and values.nunique() == 1  # whose mean is rounded, so they would seem to differ
+            cells.append((values.mean(), 0.0 if alike else values.std()))
         rows[" ".join(map(str, row))] = cells
     return rows
 
