@@ -16,7 +16,7 @@ TARGET = 1e-2
 # Of a code: its colour, whose brightness differs too, and its marker.
 LOOKS = [("#000000", "v"), ("#b2182b", "o"), ("#08306b", "s"), ("#d95f0e", "D"), ("#1b7837", "^"), ("#636363", "P"),
          ("#762a83", "X"), ("#5ab4ac", "*")]  # fmt: skip
-HOLLOW = {"markerfacecolor": "white", "linestyle": "none", "markersize": 8, "zorder": 1}
+HOLLOW = {"markerfacecolor": "none", "linestyle": "none", "markersize": 9}
 
 
 def read(paths: list[Path]) -> pd.DataFrame:
