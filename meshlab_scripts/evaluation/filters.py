@@ -23,11 +23,18 @@ def opened(*paths: Path) -> Iterator[pymeshlab.MeshSet]:
         yield meshes
 
 
-def save(meshes: pymeshlab.MeshSet, path: Path) -> None:
-    """Saves the current layer; the file is there whole, or not at all."""
+@contextmanager
+def replaced(path: Path) -> Iterator[Path]:
+    """A place of this process' own to write to. What is there at the end becomes the file: whole, or not at all."""
     part = path.with_name(f".{os.getpid()}-{path.name}")
-    host.save(meshes, part)
+    yield part
     part.replace(path)
+
+
+def save(meshes: pymeshlab.MeshSet, path: Path) -> None:
+    """Saves the current layer."""
+    with replaced(path) as part:
+        host.save(meshes, part)
 
 
 def apply(meshes: pymeshlab.MeshSet, name: str, **values: Value) -> Numbers:

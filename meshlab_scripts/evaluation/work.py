@@ -3,7 +3,6 @@
 
 import json
 import math
-import os
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -17,7 +16,7 @@ from meshmark.host import Value
 from . import frames
 from .channels import CHANNELS, Shape
 from .channels.shape import Passage
-from .filters import Numbers, apply, opened, save
+from .filters import Numbers, apply, opened, replaced, save
 from .jobs import METHODS, Job, Site, mesh_file
 
 # What the plugin takes.
@@ -155,9 +154,8 @@ def _strength(job: Job, site: Site) -> float:
         return job.strength
     known = site.cache / f"{replace(job, key=0).name}.json"
     if not known.exists():
-        part = known.with_name(f".{os.getpid()}-{known.name}")
-        part.write_text(json.dumps(_strongest(replace(job, key=0), site)), encoding="utf-8")
-        part.replace(known)
+        with replaced(known) as part:
+            part.write_text(json.dumps(_strongest(replace(job, key=0), site)), encoding="utf-8")
     found = json.loads(known.read_text(encoding="utf-8"))
     if found is None:
         raise ValueError(f"No strength at which the mark reads back keeps the limits {dict(job.limits)}.")
