@@ -12,13 +12,11 @@ namespace vcg_ext {
 
 namespace {
 
-// Moments go with the sixth power of the size, quadrics' determinants with the twelfth of it over its square.
-constexpr double largest = 1e35;
-constexpr double smallest = 1e-35;
+constexpr double smallest = 1e-35; // for the reasons of largest_coordinate
 
 bool within_largest(const Eigen::AlignedBox3d& box)
 {
-    return box.min().minCoeff() >= -largest && box.max().maxCoeff() <= largest;
+    return box.min().minCoeff() >= -largest_coordinate && box.max().maxCoeff() <= largest_coordinate;
 }
 
 } // namespace

@@ -4,6 +4,9 @@
 
 namespace vcg_ext {
 
+/// Moments go with the sixth power of the size, quadrics' determinants with the twelfth of it over its square.
+constexpr double largest_coordinate = 1e35;
+
 /// \param which what the text calls the mesh
 /// \throw Error where a coordinate is not finite, the mesh has no faces, a face refers to a vertex that is not there,
 ///              the size is beyond what areas and moments in double bear (1e-35 to 1e35), or no face has three corners

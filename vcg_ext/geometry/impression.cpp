@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "impression.h"
 
+#include "../base/check.h"
 #include "../base/parallel.h"
 #include "../base/pi.h"
 #include "moments.h"
@@ -291,10 +292,9 @@ Impression read_impression(ByteReader& reader)
     for (double& x : corner)
         x = reader.get<double>();
     const double step = reader.get<double>();
-    constexpr double largest = 1e35; // as of meshes
-    const bool sound = step > 0 && likeness.diagonal > 0 && likeness.size() > 0 && count > 0 &&
-                       described_points <= count &&
-                       std::max({corner.cwiseAbs().maxCoeff(), step, likeness.diagonal, likeness.size()}) < largest;
+    const bool sound =
+        step > 0 && likeness.diagonal > 0 && likeness.size() > 0 && count > 0 && described_points <= count &&
+        std::max({corner.cwiseAbs().maxCoeff(), step, likeness.diagonal, likeness.size()}) < largest_coordinate;
     if (!sound)
         throw Error("The numbers of the points make no sense.");
     for (int i = 0; i < count; ++i) {
