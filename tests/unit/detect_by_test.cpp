@@ -113,7 +113,8 @@ TEST(DetectBy, OfTheNumbersOfCarriersTakesTheOneThatAMarkIsIn)
 
 TEST(DetectBy, AnErasedCarrierIsNoMatch)
 {
-    // 24 erased; all that are read are right, then all but eight. Zeros are what an erased carrier used to be taken for.
+    // 24 erased; all that are read are right, then all but eight. The message is of zeros, as the hard bits of erased
+    // carriers are.
     const std::string zeros = "bits:" + std::string(carriers, '0');
     const DetectReport right = found(saying(zeros, 0, 24), asking({zeros}));
     EXPECT_DOUBLE_EQ(*right.detection_ratio, (40 + 12) / 64.0);

@@ -313,7 +313,7 @@ void tell_layers(const DetectOptions& options, const Trial& trial, DetectReport&
             one.p_value = probability(trial.after_share(trial.judgement.match_of_layer[i]));
         if (const auto& presence = trial.layers[i].readings.presence) {
             one.presence = probability(trial.after_share(*presence));
-            result.presence = probability(trial.log10_presence());
+            result.presence = std::min(result.presence.value_or(1), *one.presence);
         }
         result.layers.push_back(one);
     }

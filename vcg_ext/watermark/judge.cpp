@@ -170,9 +170,13 @@ public:
     void match_list(const std::vector<Message>& expected)
     {
         const double many = std::log10(static_cast<double>(expected.size()));
-        std::vector<SignTail> tails;
-        for (const Judgement::View& view : result.views)
-            tails.emplace_back(view.soft);
+        std::vector<std::size_t> blind;
+        std::vector<SignTail> tails; // of these
+        for (std::size_t v = 0; v < result.views.size(); ++v)
+            if (result.views[v].blind) {
+                blind.push_back(v);
+                tails.emplace_back(result.views[v].soft);
+            }
         result.match_of_layer.assign(layers_.size(), 0);
         Judgement::Match match;
         double best = 1;
@@ -186,15 +190,13 @@ public:
                 continue; // the same line again is no runner-up
             double p = 0;
             std::size_t at = result.view;
-            for (std::size_t v = 0; v < result.views.size(); ++v) {
-                const std::vector<double>& soft = result.views[v].soft;
-                if (!result.views[v].blind)
-                    continue;
+            for (std::size_t i = 0; i < blind.size(); ++i) {
+                const std::vector<double>& soft = result.views[blind[i]].soft;
                 const double here =
-                    tails[v].log10_count(agreement(repeated(coded, soft.size()), soft)) + std::log10(kinds_);
+                    tails[i].log10_count(agreement(repeated(coded, soft.size()), soft)) + std::log10(kinds_);
                 if (here < p) {
                     p = here;
-                    at = v;
+                    at = blind[i];
                 }
             }
             if (p < best) {

@@ -2,6 +2,7 @@
 #include "report.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace vcg_ext {
 
