@@ -103,15 +103,15 @@ Key::Key(std::string_view secret)
         throw Error("The key is empty. Give a passphrase, file:PATH or env:NAME.");
     if (sodium_init() < 0)
         throw Error("libsodium could not start, so there is no key. Check the system's source of random numbers.");
-    const auto master = [secret = to_secret(secret)] {
+    const auto derived = [secret = to_secret(secret)] {
         auto master = std::make_unique<Master>();
         derive(secret, master->bytes);
         return std::unique_ptr<const Master>(std::move(master));
     };
     try {
-        master_ = std::async(std::launch::async, master).share();
+        master_ = std::async(std::launch::async, derived).share();
     } catch (const std::system_error&) { // no thread is to be had: whoever asks first derives it
-        master_ = std::async(std::launch::deferred, master).share();
+        master_ = std::async(std::launch::deferred, derived).share();
     }
 }
 
