@@ -10,7 +10,7 @@ from pathlib import Path
 import pymeshlab
 
 from . import host, plugin
-from .errors import FormatError, MeshmarkError, MovesTooMuch, NotReadBack
+from .errors import FormatError, MovesTooMuch, NotReadBack
 from .formats import Body, Points, Skin, read_body, weld
 from .key import Key, find_key
 from .layer import Layer
@@ -91,7 +91,6 @@ def detect(
 
     :raises Refused: where the filter cannot look at the mesh
     :raises FormatError: where a file cannot be read
-    :raises MeshmarkError: where the plugin cannot read with an original
     """
     values = Settings(method, statistic, bits, trim).values()
     secret = find_key(key)
@@ -99,8 +98,6 @@ def detect(
         values |= {"key": lent, "expected": text}
         if original is None:
             return DetectReport.read(host.apply_with_report(meshes, plugin.DETECT, **values))
-        if not plugin.reads_with_original():
-            raise MeshmarkError("This plugin cannot read with the original. Build that of this version.")
         examined = meshes.current_mesh_id()
         _add(meshes, read_body(Path(original)))
         values["original"] = meshes.current_mesh_id()

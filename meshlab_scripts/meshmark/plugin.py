@@ -22,7 +22,7 @@ DETECT_WITH_ORIGINAL = "get_watermark_with_original"
 ATTACK = "apply_watermark_attack"
 MEASURE = "get_watermark_distortion"
 
-NEEDED = {EMBED, DETECT, ATTACK, MEASURE}
+NEEDED = {EMBED, DETECT, DETECT_WITH_ORIGINAL, ATTACK, MEASURE}
 
 
 def path() -> Path:
@@ -54,9 +54,3 @@ def load(named: Path | None = None) -> None:
 
 def _missing() -> set[str]:
     return NEEDED - set(pymeshlab.filter_list())
-
-
-def reads_with_original() -> bool:
-    """Whether this plugin can read with the original at hand."""
-    load()
-    return DETECT_WITH_ORIGINAL in pymeshlab.filter_list()

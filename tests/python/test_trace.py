@@ -10,7 +10,6 @@ import pytest
 import trimesh
 from bodies import body, write_bodies
 from dask.distributed import LocalCluster
-from meshmark import plugin
 from meshmark.catalog import Ledger, Order, make_copies
 from meshmark.catalog.ledger import Model
 from meshmark.catalog.recipients import Recipient
@@ -124,7 +123,6 @@ def test_a_mark_in_another_object_names_nobody(shops: tuple[Shop, Shop], tmp_pat
         assert "another object" in result.sentence
 
 
-@pytest.mark.skipif(not plugin.reads_with_original(), reason="the plugin has no filter that reads with an original")
 def test_a_part_is_read_with_the_original(shops: tuple[Shop, Shop], tmp_path: Path) -> None:
     shop = shops[0]
     meshmark.attack(shop.copy("Bob", 1), tmp_path / "part.ply", attack="Crop", amount=0.3)

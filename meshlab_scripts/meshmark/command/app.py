@@ -6,12 +6,13 @@ from importlib import metadata
 from typing import Annotated
 
 import typer
+from rich.markup import escape
 
 from ..errors import MeshmarkError
 from . import catalog, report, single, trace
 from .output import errors
 
-PRESENT, ABSENT, ERROR = 0, 1, 2
+ERROR = 2
 
 app = typer.Typer(
     name="meshmark",
@@ -44,7 +45,7 @@ def main() -> None:
     try:
         app()
     except (MeshmarkError, OSError) as error:
-        errors.print(f"[bold red]meshmark:[/] {single.escape(str(error))}", soft_wrap=True)
+        errors.print(f"[bold red]meshmark:[/] {escape(str(error))}", soft_wrap=True)
         sys.exit(ERROR)
     except KeyboardInterrupt:
         sys.exit(130)

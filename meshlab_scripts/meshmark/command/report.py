@@ -9,7 +9,6 @@ from rich.markup import escape
 
 from ..catalog import Ledger
 from ..key import find_key
-from ..plugin import reads_with_original
 from ..tracing import trace
 from .options import KeyFile
 from .output import busy, console
@@ -37,7 +36,7 @@ def report(
     from ..evidence import write_page  # matplotlib takes longer to load than all other commands need
 
     with busy(f"Reading {found.name}"), Ledger(ledger) as opened:
-        result = trace(found, opened, find_key(None, key_file), original if reads_with_original() else None)
+        result = trace(found, opened, find_key(None, key_file), original)
         page = out or found.with_suffix(".html")
         write_page(page, found, result, opened, original)
     console.print(f"[bold]{escape(result.sentence)}[/] {escape(str(page))}", soft_wrap=True)

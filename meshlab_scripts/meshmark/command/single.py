@@ -5,15 +5,12 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.markup import escape
 
 from .. import marking
 from ..key import find_key
 from ..settings import Method, Statistic
 from .options import AsJson, Bits, KeyFile, MaxMove, MethodName, StatisticName, Strength, Trim
 from .output import busy, show
-
-__all__ = ["add_to", "escape"]
 
 Source = Annotated[Path, typer.Argument(metavar="IN", help="STL, PLY, OBJ, OFF, GLB or 3MF.", show_default=False)]
 Target = Annotated[Path, typer.Argument(metavar="OUT", help="Of the same kind.", show_default=False)]

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pymeshlab
 
-from .. import host, marking, plugin
+from .. import host, marking
 from ..catalog.ledger import Ledger, Model
 from ..catalog.plan import digest
 from ..errors import MeshmarkError, Refused
@@ -108,8 +108,8 @@ def trace(found: Path, ledger: Ledger, key: Key, originals: Path | None = None) 
     parts and bent copies are read too.
 
     :raises FormatError: where it cannot be read
-    :raises MeshmarkError: where the ledger is empty, its copies were marked with another key, or the plugin cannot
-        read with an original
+    :raises MeshmarkError: where the ledger is empty, its copies were marked with another key, or none of the originals
+        is what it was
     """
     if ledger.key_check is None or ledger.empty:
         raise MeshmarkError(f"The ledger '{ledger.path}' has no copies yet.")
@@ -157,8 +157,6 @@ def _readings(attempts: list[_Attempt], key: Key) -> Iterator[Reading]:
 
 def _originals(folder: Path, models: list[Model]) -> dict[int, Path]:
     """The models' files, by the number of the model, where they are what they were."""
-    if not plugin.reads_with_original():
-        raise MeshmarkError("This plugin cannot read with the original: leave out the folder of originals.")
     files = {model.id: folder / model.name for model in models}
     found = {m.id: files[m.id] for m in models if files[m.id].is_file() and digest(files[m.id]) == m.sha256}
     if not found:
