@@ -18,10 +18,10 @@ from meshmark.catalog import Ledger, Order, make_copies
 from meshmark.catalog.plan import digest
 from meshmark.catalog.recipients import Recipient
 from meshmark.evidence import write_page
-from meshmark.evidence.page import _odds
 from meshmark.settings import Settings
 from meshmark.shape.alignment import laid_on
 from meshmark.tracing import trace
+from meshmark.tracing.bounds import odds, rounded_up
 
 
 def test_a_part_is_laid_on_the_model_at_any_size_place_and_chirality() -> None:
@@ -39,8 +39,22 @@ def test_a_part_is_laid_on_the_model_at_any_size_place_and_chirality() -> None:
     ("p", "text"),
     [(1, "1"), (0.25, "0.25"), (0.02, "1 in 50"), (2e-7, "1 in 5 million"), (3e-19, "1 in 10^18")],
 )
-def test_odds_are_never_better_than_p(p: float, text: str) -> None:
-    assert _odds(p) == text
+def test_odds_in_words(p: float, text: str) -> None:
+    assert odds(p) == text
+
+
+def test_what_is_printed_stays_a_bound() -> None:
+    """Never below p, and above it by what rounding takes: a tenth, a half of the odds, or a power of ten."""
+    names = {"thousand": 10**3, "million": 10**6, "thousand million": 10**9}
+    sweep = [*np.geomspace(1e-300, 1, 3000), *np.nextafter(10.0 ** np.arange(-20, 0), 1), 1.04e-9, 0.994]
+    for p in sweep:
+        said, word = odds(p), rounded_up(p)
+        number, _, name = said.removeprefix("1 in ").replace(",", "").partition(" ")
+        power = number.startswith("10^")
+        one_in = 10 ** int(number[3:]) if power else int(number) * names.get(name, 1) if "in" in said else None
+        chance = 1 / one_in if one_in else float(said)
+        assert p <= float(word) <= 1.1 * p, word
+        assert p <= chance <= (10 if power else 2) * p, said
 
 
 class Text(HTMLParser):

@@ -7,11 +7,10 @@ from importlib import metadata, resources
 from pathlib import Path
 from string import Template
 
-import numpy as np
-
 from ..catalog.ledger import Copy, Ledger, now
 from ..catalog.plan import digest
 from ..tracing import Answer, Trace
+from ..tracing.bounds import odds, rounded_up
 from .pictures import picture
 
 COLORS = {Answer.NAME: "#b2182b", Answer.NOBODY: "#1b7837", Answer.CANNOT_TELL: "#666666"}
@@ -45,11 +44,10 @@ def write_page(out: Path, found: Path, result: Trace, ledger: Ledger, originals:
 
 
 def _meaning(result: Trace) -> list[str]:
-    odds = _odds(result.p)
     texts = [
-        f"p = {result.p:.1e}: were this file unmarked, or marked with another key, the probability that the message of "
-        f"any of the {result.candidates:,} recipients could be read as well from it would be at most {odds}. "
-        "Somebody is named only below 1 in a million."
+        f"p = {rounded_up(result.p)}: were this file unmarked, or marked with another key, the probability that the "
+        f"message of any of the {result.candidates:,} recipients could be read as well from it would be at most "
+        f"{odds(result.p)}. Somebody is named only below 1 in a million."
     ]
     if result.mixed:
         texts.append("More than one recipient's message reads beyond doubt: the file was made from several copies.")
@@ -58,18 +56,6 @@ def _meaning(result: Trace) -> list[str]:
     if result.answer == Answer.CANNOT_TELL:
         texts.append("That is no proof of innocence, and no suspicion against anybody.")
     return texts
-
-
-def _odds(p: float) -> str:
-    """In words: 1 in 3 million."""
-    if p > 0.1:
-        return f"{p:.2g}"
-    if p < 1e-12:
-        return f"1 in 10^{int(-np.log10(p))}"
-    for size, name in ((1e9, "thousand million"), (1e6, "million"), (1e3, "thousand")):
-        if 1 / p >= size:
-            return f"1 in {int(1 / p / size):,} {name}"
-    return f"1 in {int(1 / p)}"
 
 
 def _shape(result: Trace) -> str:

@@ -10,7 +10,6 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from pathlib import Path
 
-import numpy as np
 import pymeshlab
 
 from .. import host, marking
@@ -22,6 +21,7 @@ from ..key import Key
 from ..reports import DetectReport
 from ..settings import Settings
 from ..shape.pieces import Piece, pieces
+from .bounds import rounded_up
 from .likeness import Likeness, nearest, ranked
 
 PROVEN = 1e-6  # below it somebody is named
@@ -225,11 +225,14 @@ def _mark_without_name(reports: list[DetectReport], p: float, tries: int) -> str
     presence = min((one.presence or 1 for one in reports), default=1) * tries
     if presence < PROVEN:
         return (
-            f"A mark of this key is there (p {_p(presence)}), but whose it is does not come out: the copy is damaged, "
-            "or several were mixed."
+            f"A mark of this key is there (p {rounded_up(presence)}), but whose it is does not come out: the copy is "
+            "damaged, or several were mixed."
         )
     if p < DOUBT:
-        return f"One recipient's message reads better than chance (p {_p(p)}), but not well enough to name anybody."
+        return (
+            f"One recipient's message reads better than chance (p {rounded_up(p)}), but not well enough to name "
+            "anybody."
+        )
     return ""
 
 
@@ -254,20 +257,12 @@ def _named(best: Reading, ledger: Ledger, tries: int, facts: dict[str, object]) 
     where = "" if best.piece == "the whole file" else f" In {best.piece}."
     if model is None or not ledger.has(model.id, best.recipient):
         text = (
-            f"The message of {name} reads (p {_p(facts['p'])}), but by its shape it is none of the models that {name} "
-            f"has. Who has a copy can put its mark into another object: so nobody is named.{where}"
+            f"The message of {name} reads (p {rounded_up(facts['p'])}), but by its shape it is none of the models that "
+            f"{name} has. Who has a copy can put its mark into another object: so nobody is named.{where}"
         )
         return Trace(Answer.CANNOT_TELL, f"Cannot tell. {text}", **facts)
-    text = f"{name}: it is the copy of '{model.name}' for this recipient (p {_p(facts['p'])}).{where}"
+    text = f"{name}: it is the copy of '{model.name}' for this recipient (p {rounded_up(facts['p'])}).{where}"
     mixed = best.runner_up_p * tries < PROVEN
     if mixed:
-        text += f" A second recipient reads beyond doubt, too (p {_p(best.runner_up_p * tries)}): copies were mixed."
+        text += " A second recipient reads beyond doubt, too: copies were mixed."
     return Trace(Answer.NAME, text, recipient=name, mixed=mixed, **facts)
-
-
-def _p(p: float) -> str:
-    """Rounded up, so that it stays a bound."""
-    if p >= 1:
-        return "1"
-    power = int(np.floor(np.log10(p)))
-    return f"{np.ceil(p / 10.0**power - 1e-9):.0f}e{power}"
