@@ -73,10 +73,10 @@ def test_a_name_through_formats_mirrors_and_plates(shops: tuple[Shop, Shop], tmp
         (tmp_path / "plate.stl", "Bob", "piece "),
     ]:
         result = shop.trace(file)
-        assert (result.answer, result.recipient, result.model) == (Answer.NAME, name, "body1.stl"), file
+        assert (result.answer, result.recipient, result.model.name) == (Answer.NAME, name, "body1.stl"), file
         assert result.p < 1e-6
         assert not result.mixed
-        assert result.piece.startswith(piece)
+        assert result.evidence.best.piece.startswith(piece)
         assert name in result.sentence
 
 
@@ -85,7 +85,8 @@ def test_nobody_for_unmarked_models_and_for_another_shop(shops: tuple[Shop, Shop
     meshmark.attack(ours.folder / "models" / "body0.stl", tmp_path / "unmarked.ply", attack="Noise", amount=0.0005)
     for file in (tmp_path / "unmarked.ply", theirs.copy("Jane", 0)):
         result = ours.trace(file)
-        assert (result.answer, result.recipient, result.model) == (Answer.NOBODY, None, "body0.stl"), result.sentence
+        found = (result.answer, result.recipient, result.model.name)
+        assert found == (Answer.NOBODY, None, "body0.stl"), result.sentence
         assert result.p > 1e-6
 
 
@@ -129,8 +130,8 @@ def test_a_part_is_read_with_the_original(shops: tuple[Shop, Shop], tmp_path: Pa
     with Ledger(shop.folder / "ledger.sqlite") as ledger:
         assert trace(tmp_path / "part.ply", ledger, shop.key).answer == Answer.CANNOT_TELL
         result = trace(tmp_path / "part.ply", ledger, shop.key, shop.folder / "models")
-    assert (result.answer, result.recipient, result.model) == (Answer.NAME, "Bob", "body1.stl"), result.sentence
-    assert result.tries == 1 + 2  # blind, and with either model
+    assert (result.answer, result.recipient, result.model.name) == (Answer.NAME, "Bob", "body1.stl"), result.sentence
+    assert result.evidence.tries == 1 + 2  # blind, and with either model
 
 
 def test_p_counts_candidates_and_readings(shops: tuple[Shop, Shop], tmp_path: Path) -> None:
@@ -140,12 +141,12 @@ def test_p_counts_candidates_and_readings(shops: tuple[Shop, Shop], tmp_path: Pa
         tmp_path / "two.stl"
     )
     result = shop.trace(tmp_path / "two.stl")
-    best = min(result.readings, key=lambda one: one.p)
-    assert [one.piece for one in result.readings] in (
+    best = result.evidence.best
+    assert [one.piece for one in result.evidence.readings] in (
         ["piece 1 of 2"],
         ["piece 1 of 2", "piece 2 of 2"],
     )
-    assert (result.candidates, result.tries) == (2, 3)
+    assert (result.evidence.candidates, result.evidence.tries) == (2, 3)
     assert result.p == pytest.approx(3 * best.p)
     alone = meshmark.detect(
         shop.copy("Bob", 0), key=shop.key, method="L-M", bits=64, expected=best.report.message

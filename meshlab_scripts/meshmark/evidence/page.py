@@ -11,6 +11,7 @@ from ..catalog.ledger import Copy, Ledger, now
 from ..catalog.plan import digest
 from ..tracing import Answer, Trace
 from ..tracing.bounds import odds, rounded_up
+from ..tracing.originals import unchanged
 from .pictures import picture
 
 COLORS = {Answer.NAME: "#b2182b", Answer.NOBODY: "#1b7837", Answer.CANNOT_TELL: "#666666"}
@@ -18,14 +19,14 @@ COLORS = {Answer.NAME: "#b2182b", Answer.NOBODY: "#1b7837", Answer.CANNOT_TELL: 
 
 def write_page(out: Path, found: Path, result: Trace, ledger: Ledger, originals: Path | None) -> None:
     """Writes what a trace found, with pictures, hashes, versions, and what would refute it."""
-    model = next((one for one in ledger.models() if one.name == result.model), None)
-    original = originals / model.name if originals and model and (originals / model.name).is_file() else None
+    model = result.model
+    original = unchanged(originals, [model]).get(model.id) if originals and model else None
     template = Template(resources.files(__package__).joinpath("page.html").read_text(encoding="utf-8"))
     values = {
         "title": f"Whose copy is {found.name}?",
         "sentence": result.sentence,
         "shape": _shape(result),
-        "tries": str(result.tries),
+        "tries": str(result.evidence.tries),
         "command": f"meshmark trace {found.name} --ledger {ledger.path.name} --key-file KEY"
         + (" --original FOLDER" if originals else ""),
     }
@@ -33,7 +34,7 @@ def write_page(out: Path, found: Path, result: Trace, ledger: Ledger, originals:
         "color": COLORS[result.answer],
         "picture": base64.b64encode(picture(found, original)).decode(),
         "meaning": "".join(f"<p>{html.escape(text)}</p>" for text in _meaning(result)),
-        "readings": "".join(f"<tr><td>{html.escape(str(one))}</td></tr>" for one in result.readings),
+        "readings": "".join(f"<tr><td>{html.escape(str(one))}</td></tr>" for one in result.evidence.readings),
         "facts": "".join(
             f"<tr><th>{html.escape(name)}</th><td><code>{html.escape(value)}</code></td></tr>"
             for name, value in _facts(found, result, ledger).items()
@@ -46,8 +47,8 @@ def write_page(out: Path, found: Path, result: Trace, ledger: Ledger, originals:
 def _meaning(result: Trace) -> list[str]:
     texts = [
         f"p = {rounded_up(result.p)}: were this file unmarked, or marked with another key, the probability that the "
-        f"message of any of the {result.candidates:,} recipients could be read as well from it would be at most "
-        f"{odds(result.p)}. Somebody is named only below 1 in a million."
+        f"message of any of the {result.evidence.candidates:,} recipients could be read as well from it would be at "
+        f"most {odds(result.p)}. Somebody is named only below 1 in a million."
     ]
     if result.mixed:
         texts.append("More than one recipient's message reads beyond doubt: the file was made from several copies.")
@@ -75,9 +76,8 @@ def _facts(found: Path, result: Trace, ledger: Ledger) -> dict[str, str]:
         "ledger": str(ledger.path.name),
         "check of the key": ledger.key_check or "",
     }
-    model = next((one for one in ledger.models() if one.name == result.model), None)
-    if model:
-        facts |= {"model": model.name, "its SHA-256 at marking": model.sha256}
+    if result.model:
+        facts |= {"model": result.model.name, "its SHA-256 at marking": result.model.sha256}
     copy = _copy(result, ledger)
     if copy:
         facts |= {
@@ -90,14 +90,17 @@ def _facts(found: Path, result: Trace, ledger: Ledger) -> dict[str, str]:
     return facts | {
         "meshmark": metadata.version("meshmark"),
         "pymeshlab": metadata.version("pymeshlab"),
-        "plugin": next((one.report.version for one in result.readings if one.report), ""),
+        "plugin": next((one.report.version for one in result.evidence.readings if one.report), ""),
         "written": now(),
     }
 
 
 def _copy(result: Trace, ledger: Ledger) -> Copy | None:
-    names = {number: name for number, (name, _) in ledger.recipients().items()}
-    models = {model.id: model.name for model in ledger.models()}
+    """The entry of the one that is named."""
+    if result.recipient is None or result.model is None:
+        return None
     return next(
-        (c for c in ledger.copies() if names[c.recipient] == result.recipient and models[c.model] == result.model), None
+        copy
+        for copy in ledger.copies()
+        if copy.model == result.model.id and ledger.name(copy.recipient) == result.recipient
     )

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whose copy a found file is."""
 
-from .trace import Answer, Trace, trace
+from .trace import trace
+from .verdict import Answer, Trace
 
 __all__ = ["Answer", "Trace", "trace"]

@@ -43,6 +43,9 @@ class Likeness:
         return self.difference < SAME and SMOOTHER < self.roughening < ROUGHER and self.faces > COARSER
 
 
+Likes = dict[str, list[Likeness]]  # of each piece, by its name: the models from the nearest on
+
+
 def ranked(piece: Piece, models: list[Model]) -> list[Likeness]:
     """The models from the nearest on; in the ledger's order where the piece has no shape."""
     try:
@@ -57,7 +60,6 @@ def ranked(piece: Piece, models: list[Model]) -> list[Likeness]:
     return sorted(likes, key=lambda like: like.difference)
 
 
-def nearest(piece: Piece, models: list[Model]) -> Likeness | None:
-    """None where the piece has no shape, or there are no models."""
-    likes = ranked(piece, models)
+def nearest(likes: list[Likeness]) -> Likeness | None:
+    """The first of these, where the piece has a shape."""
     return likes[0] if likes and np.isfinite(likes[0].difference) else None

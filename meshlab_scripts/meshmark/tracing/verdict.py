@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What readings come to, in words: a name, nobody, or that it cannot be told."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from ..catalog.ledger import Ledger, Model
+from .bounds import rounded_up
+from .likeness import Likeness, Likes, nearest
+from .readings import PROVEN, Evidence
+
+DOUBT = 1e-2  # below it "nobody" is not said either
+ANOTHER_KEY = 3  # DetectReport.finding
+
+
+class Answer(StrEnum):
+    """The three answers."""
+
+    NAME = "a name"
+    NOBODY = "nobody"
+    CANNOT_TELL = "cannot tell"
+
+
+@dataclass(frozen=True)
+class Trace:
+    """The answer, and all that it rests on."""
+
+    answer: Answer
+    sentence: str
+    evidence: Evidence
+    model: Model | None = None  # that it is a copy of
+    likeness: Likeness | None = None
+    recipient: str | None = None
+    mixed: bool = False  # another recipient reads beyond doubt, too: copies were averaged
+
+    @property
+    def p(self) -> float:
+        """Counts candidates and readings."""
+        return self.evidence.p
+
+    def json(self) -> dict[str, object]:
+        """For other programs."""
+        like = self.likeness
+        return {
+            "answer": str(self.answer),
+            "recipient": self.recipient,
+            "mixed": self.mixed,
+            "p": self.p,
+            "model": self.model.name if self.model else None,
+            "shape_difference": like.difference if like else None,
+            "area_change": like.roughening if like else None,
+            "piece": self.evidence.best.piece,
+            "candidates": self.evidence.candidates,
+            "tries": self.evidence.tries,
+            "readings": [one.json() for one in self.evidence.readings],
+            "sentence": self.sentence,
+        }  # fmt: skip
+
+
+def judge(evidence: Evidence, likes: Likes, ledger: Ledger) -> Trace:
+    """Whose copy it is, by what was read and what shape it has."""
+    best = evidence.best
+    proven = evidence.p < PROVEN
+    like = nearest(likes[best.piece])
+    if not proven or like is None or not like.alike:
+        near = [one for one in map(nearest, likes.values()) if one and one.alike]
+        like = min(near, key=lambda one: one.difference, default=like)
+    return _named(evidence, like, ledger) if proven else _unnamed(evidence, like)
+
+
+def _named(evidence: Evidence, like: Likeness | None, ledger: Ledger) -> Trace:
+    """The message of a recipient is there for certain; the shape tells whether in a copy that this one has."""
+    best = evidence.best
+    name = ledger.name(best.recipient)
+    model = best.original or _model(like)
+    where = "" if best.piece == "the whole file" else f" In {best.piece}."
+    if model is None or not ledger.has(model.id, best.recipient):
+        text = (
+            f"Cannot tell. The message of {name} reads (p {rounded_up(evidence.p)}), but by its shape it is none of "
+            f"the models that {name} has. Who has a copy can put its mark into another object: so nobody is "
+            f"named.{where}"
+        )
+        return Trace(Answer.CANNOT_TELL, text, evidence, model, like)
+    text = f"{name}: it is the copy of '{model.name}' for this recipient (p {rounded_up(evidence.p)}).{where}"
+    mixed = evidence.bound(best.runner_up_p) < PROVEN
+    if mixed:
+        text += " A second recipient reads beyond doubt, too: copies were mixed."
+    return Trace(Answer.NAME, text, evidence, model, like, name, mixed)
+
+
+def _unnamed(evidence: Evidence, like: Likeness | None) -> Trace:
+    """Nobody's message is there for certain: nobody's copy, unless a mark may have been there."""
+    doubt = _mark_without_name(evidence) or _doubtful_shape(like)
+    if doubt:
+        return Trace(Answer.CANNOT_TELL, f"Cannot tell. {doubt}", evidence, _model(like), like)
+    another = any(one.finding == ANOTHER_KEY for one in evidence.reports)
+    text = (
+        f"Nobody. It is '{like.model.name}' by its shape, little changed, and no mark of this ledger's key reads"
+        f"{', and seems to carry one of another key' if another else ''}: it is unmarked, not one of these copies, or "
+        "its mark was taken out."
+    )
+    return Trace(Answer.NOBODY, text, evidence, _model(like), like)
+
+
+def _model(like: Likeness | None) -> Model | None:
+    return like.model if like and like.alike else None
+
+
+def _mark_without_name(evidence: Evidence) -> str:
+    """What speaks for a mark of the ledger's key although nobody can be named; empty where nothing does."""
+    verified = next((one.message for one in evidence.reports if evidence.bound(one.p_message) < PROVEN), "")
+    if verified:
+        return f"It carries '{verified}' of this key (proven), but no copy in the ledger has that message."
+    presence = evidence.bound(min((one.presence or 1 for one in evidence.reports), default=1))
+    if presence < PROVEN:
+        return (
+            f"A mark of this key is there (p {rounded_up(presence)}), but whose it is does not come out: the copy is "
+            "damaged, or several were mixed."
+        )
+    if evidence.p < DOUBT:
+        return (
+            f"One recipient's message reads better than chance (p {rounded_up(evidence.p)}), but not well enough to "
+            "name anybody."
+        )
+    return ""
+
+
+def _doubtful_shape(like: Likeness | None) -> str:
+    """Why a mark that is not read may have been there; empty where the shape is that of a model, little changed."""
+    if like is None or not like.alike:
+        near_by = f"; the nearest, '{like.model.name}', is {like.difference:.0%} off" if like else ""
+        return f"Its shape is none of the ledger's models{near_by}. It is another object, or a part of one."
+    if not like.intact:
+        return (
+            f"It is '{like.model.name}' by its shape, but changed (shape {like.difference:.1%}, area "
+            f"{like.roughening:+.1%}, {like.faces:.0%} of the faces): a mark may have been lost."
+        )
+    return ""
