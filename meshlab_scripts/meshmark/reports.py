@@ -90,6 +90,7 @@ class DetectReport(Report):
     runner_up_p: float | None = None
     smoothing_rounds: float | None = None
     orientation: object | None = None
+    parts: list[dict[str, object]] | None = None  # of a plate whose whole said nothing: what was read instead
     layers: list[dict[str, object]] = field(default_factory=list)
     seconds: dict[str, float] = field(default_factory=dict)
 

@@ -83,7 +83,10 @@ def test_the_page_has_all_that_somebody_else_needs(tmp_path: Path) -> None:
     order = Order(tmp_path / "models", tmp_path / "out", [Recipient("<b>Jane & Co", ())], key, Settings(method="L-M"))
     with LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None) as cluster:
         make_copies(order, tmp_path / "ledger.sqlite", scheduler=cluster.scheduler_address)
-    (copy,) = (tmp_path / "out").rglob("*.stl")
+        before = digest(order.models / "body0.stl")
+        body(5).export(order.models / "body0.stl")
+        make_copies(order, tmp_path / "ledger.sqlite", scheduler=cluster.scheduler_address)
+    (copy,) = (tmp_path / "out").rglob("body0-2.stl")  # of the model as it is now
     found = tmp_path / "found.stl"
     trimesh.load_mesh(copy).apply_transform(trimesh.transformations.rotation_matrix(1, [1, 2, 3])).export(found)
     page = tmp_path / "page.html"
@@ -98,6 +101,7 @@ def test_the_page_has_all_that_somebody_else_needs(tmp_path: Path) -> None:
         check, "at most 1 in 10^", "What would refute it", "meshmark trace found.stl", "2025.7", "0.9.0",
     ):  # fmt: skip
         assert words in reader.text
+    assert before not in reader.text
     assert "the key itself" not in page.read_text(encoding="utf-8")
     assert not re.search(r"(src|href)=\"(?!data:)", page.read_text(encoding="utf-8")), "one file, nothing fetched"
     (encoded,) = re.findall(r"base64,([^\"]+)", page.read_text(encoding="utf-8"))

@@ -2,6 +2,7 @@
 """Whose copy is it: the right name through what files go through, nobody for what is not ours, and no guesses."""
 
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import meshmark
@@ -12,6 +13,7 @@ from bodies import body, write_bodies
 from dask.distributed import LocalCluster
 from meshmark.catalog import Ledger, Order, make_copies
 from meshmark.catalog.ledger import Model
+from meshmark.catalog.plan import digest
 from meshmark.catalog.recipients import Recipient
 from meshmark.command.app import main
 from meshmark.formats import Body, read_body
@@ -29,29 +31,33 @@ class Shop:
 
     def __init__(self, folder: Path, scheduler: str, secret: str, buyers: list[str]) -> None:
         self.folder = folder
+        self.models = folder / "models"
+        self.scheduler = scheduler
         self.key = meshmark.Key(f"file:{folder / 'secret.key'}")
         (folder / "secret.key").write_text(secret)
-        write_bodies(folder / "models", range(2))
-        recipients = [Recipient(name, ()) for name in buyers]
-        order = Order(folder / "models", folder / "out", recipients, self.key, Settings(method="L-M"))
-        assert make_copies(order, folder / "ledger.sqlite", scheduler=scheduler).made == 2 * len(buyers)
+        write_bodies(self.models, range(2))
+        assert self.make(*[Recipient(name, ()) for name in buyers]) == 2 * len(buyers)
 
-    def copy(self, name: str, number: int) -> Path:
-        (found,) = (self.folder / "out").glob(f"*-{name}/body{number}.stl")
+    def make(self, *recipients: Recipient) -> int:
+        order = Order(self.models, self.folder / "out", list(recipients), self.key, Settings(method="L-M"))
+        return make_copies(order, self.folder / "ledger.sqlite", scheduler=self.scheduler).made
+
+    def copy(self, name: str, file: str) -> Path:
+        (found,) = (self.folder / "out").glob(f"*-{name}/{file}")
         return found
 
-    def trace(self, path: Path) -> Trace:
+    def trace(self, path: Path, originals: Path | None = None) -> Trace:
         with Ledger(self.folder / "ledger.sqlite") as ledger:
-            return trace(path, ledger, self.key)
+            return trace(path, ledger, self.key, originals)
 
 
 @pytest.fixture(scope="module")
-def shops(tmp_path_factory: pytest.TempPathFactory) -> tuple[Shop, Shop]:
+def shops(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Shop, Shop]]:
     with LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None) as cluster:
         address = cluster.scheduler_address
         ours = Shop(tmp_path_factory.mktemp("ours"), address, "our key", ["Jane", "Bob"])
         theirs = Shop(tmp_path_factory.mktemp("theirs"), address, "their key", ["Jane"])
-    return ours, theirs
+        yield ours, theirs
 
 
 def loaded(path: Path) -> trimesh.Trimesh:
@@ -60,14 +66,14 @@ def loaded(path: Path) -> trimesh.Trimesh:
 
 def test_a_name_through_formats_mirrors_and_plates(shops: tuple[Shop, Shop], tmp_path: Path) -> None:
     shop = shops[0]
-    jane = loaded(shop.copy("Jane", 1))
+    jane = loaded(shop.copy("Jane", "body1.stl"))
     turn = trimesh.transformations.rotation_matrix(1, [1, 2, 3]) @ np.diag([-25.4, 25.4, 25.4, 1])
     jane.copy().apply_transform(turn).export(tmp_path / "mirrored, turned, in inches.glb")
-    others = [loaded(shop.copy("Bob", 1)).apply_translation([200 * k, 0, 0]) for k in (1, 2, 3)]
+    others = [loaded(shop.copy("Bob", "body1.stl")).apply_translation([200 * k, 0, 0]) for k in (1, 2, 3)]
     trimesh.util.concatenate([body(3), *others]).export(tmp_path / "plate.stl")
-    meshmark.attack(shop.copy("Jane", 1), tmp_path / "noisy.ply", attack="Noise", amount=0.001)
+    meshmark.attack(shop.copy("Jane", "body1.stl"), tmp_path / "noisy.ply", attack="Noise", amount=0.001)
     for file, name, piece in [
-        (shop.copy("Jane", 1), "Jane", "the whole file"),
+        (shop.copy("Jane", "body1.stl"), "Jane", "the whole file"),
         (tmp_path / "mirrored, turned, in inches.glb", "Jane", "the whole file"),
         (tmp_path / "noisy.ply", "Jane", "the whole file"),
         (tmp_path / "plate.stl", "Bob", "piece "),
@@ -82,8 +88,8 @@ def test_a_name_through_formats_mirrors_and_plates(shops: tuple[Shop, Shop], tmp
 
 def test_nobody_for_unmarked_models_and_for_another_shop(shops: tuple[Shop, Shop], tmp_path: Path) -> None:
     ours, theirs = shops
-    meshmark.attack(ours.folder / "models" / "body0.stl", tmp_path / "unmarked.ply", attack="Noise", amount=0.0005)
-    for file in (tmp_path / "unmarked.ply", theirs.copy("Jane", 0)):
+    meshmark.attack(ours.models / "body0.stl", tmp_path / "unmarked.ply", attack="Noise", amount=0.0005)
+    for file in (tmp_path / "unmarked.ply", theirs.copy("Jane", "body0.stl")):
         result = ours.trace(file)
         found = (result.answer, result.recipient, result.model.name)
         assert found == (Answer.NOBODY, None, "body0.stl"), result.sentence
@@ -92,8 +98,8 @@ def test_nobody_for_unmarked_models_and_for_another_shop(shops: tuple[Shop, Shop
 
 def test_no_guess_where_it_cannot_be_told(shops: tuple[Shop, Shop], tmp_path: Path) -> None:
     shop = shops[0]
-    meshmark.attack(shop.copy("Jane", 0), tmp_path / "ruined.ply", attack="Noise", amount=0.03)
-    meshmark.attack(shop.copy("Jane", 0), tmp_path / "coarse.ply", attack="Simplify", amount=0.95)
+    meshmark.attack(shop.copy("Jane", "body0.stl"), tmp_path / "ruined.ply", attack="Noise", amount=0.03)
+    meshmark.attack(shop.copy("Jane", "body0.stl"), tmp_path / "coarse.ply", attack="Simplify", amount=0.95)
     for name in ("coarse.ply", "ruined.ply"):
         result = shop.trace(tmp_path / name)
         assert (result.answer, result.recipient) == (Answer.CANNOT_TELL, None), result.sentence
@@ -101,7 +107,7 @@ def test_no_guess_where_it_cannot_be_told(shops: tuple[Shop, Shop], tmp_path: Pa
 
 def test_a_copy_that_is_not_in_the_ledger_names_nobody(shops: tuple[Shop, Shop], tmp_path: Path) -> None:
     shop = shops[0]
-    source = shop.folder / "models" / "body0.stl"
+    source = shop.models / "body0.stl"
     meshmark.embed(source, tmp_path / "x.stl", message="id:5", key=shop.key, method="L-M")
     result = shop.trace(tmp_path / "x.stl")
     assert (result.answer, result.recipient) == (Answer.CANNOT_TELL, None)
@@ -123,13 +129,43 @@ def test_a_mark_in_another_object_names_nobody(shops: tuple[Shop, Shop], tmp_pat
         assert result.p < 1e-6
         assert "another object" in result.sentence
 
+    framed, beside = loaded(tmp_path / "framed.stl"), body(0).apply_translation([400, 0, 0])
+    inside = framed.copy().apply_transform(np.diag([0.2, 0.2, 0.2, 1]))  # a plate that is body0 by its shape as a whole
+    for number, plate in enumerate([(framed, beside), (beside, framed), (body(0), inside)]):
+        file = tmp_path / f"plate{number}.stl"
+        trimesh.util.concatenate(plate).export(file)
+        for originals in (None, shop.models):
+            result = shop.trace(file, originals)
+            assert (result.answer, result.recipient) == (Answer.CANNOT_TELL, None), result.sentence
+            assert result.p < 1e-6
+
+
+def test_of_models_of_one_shape_the_one_that_the_recipient_has(shops: tuple[Shop, Shop], tmp_path: Path) -> None:
+    """Two files of one shape, and then another shape in the first one's place: each copy is of its own model."""
+    theirs = shops[1]
+    body(2).export(theirs.models / "body2.ply")
+    body(2).export(theirs.models / "body2.stl")
+    kim, lee = Recipient("Kim", ("body2.stl",)), Recipient("Lee", ("body2.ply",))
+    assert theirs.make(kim, lee) == 2
+    body(3).export(theirs.models / "body2.stl")
+    assert theirs.make(kim, lee) == 1
+    meshmark.attack(theirs.copy("Kim", "body2.stl"), tmp_path / "part.ply", attack="Crop", amount=0.3)
+    for file, name, model, sha256 in [
+        (theirs.copy("Kim", "body2.stl"), "Kim", "body2.stl", None),
+        (theirs.copy("Lee", "body2.ply"), "Lee", "body2.ply", digest(theirs.models / "body2.ply")),
+        (theirs.copy("Kim", "body2-2.stl"), "Kim", "body2.stl", digest(theirs.models / "body2.stl")),
+        (tmp_path / "part.ply", "Kim", "body2.stl", None),
+    ]:
+        result = theirs.trace(file, theirs.models)
+        assert (result.answer, result.recipient, result.model.name) == (Answer.NAME, name, model), result.sentence
+        assert (result.model.sha256 == sha256) == (sha256 is not None)
+
 
 def test_a_part_is_read_with_the_original(shops: tuple[Shop, Shop], tmp_path: Path) -> None:
     shop = shops[0]
-    meshmark.attack(shop.copy("Bob", 1), tmp_path / "part.ply", attack="Crop", amount=0.3)
-    with Ledger(shop.folder / "ledger.sqlite") as ledger:
-        assert trace(tmp_path / "part.ply", ledger, shop.key).answer == Answer.CANNOT_TELL
-        result = trace(tmp_path / "part.ply", ledger, shop.key, shop.folder / "models")
+    meshmark.attack(shop.copy("Bob", "body1.stl"), tmp_path / "part.ply", attack="Crop", amount=0.3)
+    assert shop.trace(tmp_path / "part.ply").answer == Answer.CANNOT_TELL
+    result = shop.trace(tmp_path / "part.ply", shop.models)
     assert (result.answer, result.recipient, result.model.name) == (Answer.NAME, "Bob", "body1.stl"), result.sentence
     assert result.evidence.tries == 1 + 2  # blind, and with either model
 
@@ -137,7 +173,7 @@ def test_a_part_is_read_with_the_original(shops: tuple[Shop, Shop], tmp_path: Pa
 def test_p_counts_candidates_and_readings(shops: tuple[Shop, Shop], tmp_path: Path) -> None:
     """One message looked for by itself reads better by the factor of what else was looked for, and looked at."""
     shop = shops[0]
-    trimesh.util.concatenate([loaded(shop.copy("Bob", 0)), body(3).apply_translation([300, 0, 0])]).export(
+    trimesh.util.concatenate([loaded(shop.copy("Bob", "body0.stl")), body(3).apply_translation([300, 0, 0])]).export(
         tmp_path / "two.stl"
     )
     result = shop.trace(tmp_path / "two.stl")
@@ -149,7 +185,7 @@ def test_p_counts_candidates_and_readings(shops: tuple[Shop, Shop], tmp_path: Pa
     assert (result.evidence.candidates, result.evidence.tries) == (2, 3)
     assert result.p == pytest.approx(3 * best.p)
     alone = meshmark.detect(
-        shop.copy("Bob", 0), key=shop.key, method="L-M", bits=64, expected=best.report.message
+        shop.copy("Bob", "body0.stl"), key=shop.key, method="L-M", bits=64, expected=best.report.message
     ).p_value
     assert best.p == pytest.approx(2 * alone, rel=1e-3)
 
@@ -161,8 +197,8 @@ def test_the_command_says_it_by_its_exit_code(
     body(6).export(tmp_path / "another object.stl")
     options = ["--ledger", str(shop.folder / "ledger.sqlite"), "--key-file", str(shop.folder / "secret.key"), "--json"]
     for file, code in [
-        (shop.copy("Jane", 0), 0),
-        (shop.folder / "models" / "body0.stl", 1),
+        (shop.copy("Jane", "body0.stl"), 0),
+        (shop.models / "body0.stl", 1),
         (tmp_path / "nothing.stl", 2),
         (tmp_path / "another object.stl", 3),
     ]:
@@ -215,7 +251,10 @@ def test_on_a_coarse_model_a_mark_may_be_lost_by_little() -> None:
     def model(faces: int) -> Model:
         return Model(1, "a.stl", "", 0, faces // 2, faces, "mm", ())
 
-    touched, little = Likeness(model(3000), 2e-4, 1e-4, 1), Likeness(model(3000), 2e-4, 3e-4, 1)
+    touched, little = (
+        Likeness("the whole file", model(3000), 2e-4, 1e-4, 1),
+        Likeness("the whole file", model(3000), 2e-4, 3e-4, 1),
+    )
     assert touched.intact
     assert not little.intact
-    assert Likeness(model(30000), 0.01, 0.01, 0.9).intact
+    assert Likeness("the whole file", model(30000), 0.01, 0.01, 0.9).intact

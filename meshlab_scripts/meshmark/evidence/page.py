@@ -64,8 +64,8 @@ def _shape(result: Trace) -> str:
     if like is None:
         return "The file has no shape that could be compared."
     return (
-        f"By moments of its shape, which do not depend on size and place, the nearest of the ledger's models is "
-        f"'{like.model.name}': they differ by {like.difference:.2%}, the area by {like.roughening:+.1%}."
+        f"By moments of shape, which do not depend on size and place, {like.piece} and the ledger's model "
+        f"'{like.model.name}' differ by {like.difference:.2%}, the area by {like.roughening:+.1%}."
     )
 
 

@@ -23,8 +23,9 @@ EVEN, SANDED = 1.8e-4, -5e-4  # of the area: noise of .1 % and 9 bits add more, 
 
 @dataclass(frozen=True)
 class Likeness:
-    """The nearest model and how far from it a piece is."""
+    """A piece, a model, and how far they are apart."""
 
+    piece: str
     model: Model
     difference: float
     roughening: float
@@ -51,13 +52,18 @@ def ranked(piece: Piece, models: list[Model]) -> list[Likeness]:
     try:
         found = piece.signature()
     except FormatError:
-        return [Likeness(model, np.inf, 0, 1) for model in models]
+        return [Likeness(piece.name, model, np.inf, 0, 1) for model in models]
     signatures = [np.array(model.signature) for model in models]
     likes = [
-        Likeness(model, difference(found, one), roughening(found, one), len(piece.faces) / model.faces)
+        Likeness(piece.name, model, difference(found, one), roughening(found, one), len(piece.faces) / model.faces)
         for model, one in zip(models, signatures, strict=True)
     ]
     return sorted(likes, key=lambda like: like.difference)
+
+
+def of_one_shape(model: Model, other: Model) -> bool:
+    """Whether a copy of either may be one of the other: two files of a shape, or two versions of a file."""
+    return difference(np.array(model.signature), np.array(other.signature)) < SAME
 
 
 def nearest(likes: list[Likeness]) -> Likeness | None:

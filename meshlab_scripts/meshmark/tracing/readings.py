@@ -48,6 +48,11 @@ class Reading:
     report: DetectReport | None = None
     refusal: str = ""
 
+    @property
+    def of_some_part(self) -> bool:
+        """Whether the filter read parts of the piece by themselves: then its shape is not that of what was read."""
+        return self.original is None and self.report is not None and bool(self.report.parts)
+
     def json(self) -> dict[str, object]:
         """For other programs."""
         return {
@@ -110,7 +115,9 @@ def plan(
 
 
 def read(attempts: list[Attempt], key: Key) -> Evidence:
-    """Reads until one is proof. All that were meant to be read count in p, so that it stays a bound."""
+    """Reads until one is proof of which piece it is. All that were meant to be read count in p, so that it stays a
+    bound.
+    """
     candidates = len(set().union(*(attempt.group for attempt in attempts)))
     return Evidence(list(_readings(attempts, key)), len(attempts), candidates)
 
@@ -119,7 +126,7 @@ def _readings(attempts: list[Attempt], key: Key) -> Iterator[Reading]:
     for attempt in attempts:
         reading = _read(attempt, key)
         yield reading
-        if reading.p * len(attempts) < PROVEN:
+        if reading.p * len(attempts) < PROVEN and not reading.of_some_part:
             return
 
 

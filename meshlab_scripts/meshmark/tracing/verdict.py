@@ -6,8 +6,8 @@ from enum import StrEnum
 
 from ..catalog.ledger import Ledger, Model
 from .bounds import rounded_up
-from .likeness import Likeness, Likes, nearest
-from .readings import PROVEN, Evidence
+from .likeness import Likeness, Likes, nearest, of_one_shape
+from .readings import PROVEN, Evidence, Reading
 
 DOUBT = 1e-2  # below it "nobody" is not said either
 ANOTHER_KEY = 3  # DetectReport.finding
@@ -59,37 +59,53 @@ class Trace:
 
 def judge(evidence: Evidence, likes: Likes, ledger: Ledger) -> Trace:
     """Whose copy it is, by what was read and what shape it has."""
-    best = evidence.best
-    proven = evidence.p < PROVEN
-    like = nearest(likes[best.piece])
-    if not proven or like is None or not like.alike:
-        near = [one for one in map(nearest, likes.values()) if one and one.alike]
-        like = min(near, key=lambda one: one.difference, default=like)
-    return _named(evidence, like, ledger) if proven else _unnamed(evidence, like)
+    return _of_a_message(evidence, likes, ledger) if evidence.p < PROVEN else _of_none(evidence, likes)
 
 
-def _named(evidence: Evidence, like: Likeness | None, ledger: Ledger) -> Trace:
-    """The message of a recipient is there for certain; the shape tells whether in a copy that this one has."""
+def _of_a_message(evidence: Evidence, likes: Likes, ledger: Ledger) -> Trace:
+    """The message of a recipient is there for certain; the shape of that very piece tells whether in a copy of theirs.
+
+    Who has a copy can put its mark into another object, and lay that beside a model.
+    """
     best = evidence.best
     name = ledger.name(best.recipient)
-    model = best.original or _model(like)
+    models = _may_be(best, likes[best.piece])
+    own = next((like for like in models if ledger.has(like.model.id, best.recipient)), None)
     where = "" if best.piece == "the whole file" else f" In {best.piece}."
-    if model is None or not ledger.has(model.id, best.recipient):
-        text = (
-            f"Cannot tell. The message of {name} reads (p {rounded_up(evidence.p)}), but by its shape it is none of "
-            f"the models that {name} has. Who has a copy can put its mark into another object: so nobody is "
-            f"named.{where}"
+    if own is None:
+        like = None if best.of_some_part else nearest(likes[best.piece])
+        reason = (
+            "but from a part of the file that is no piece by itself, so its shape cannot be compared. Save that part "
+            "as a file, and trace that."
+            if best.of_some_part
+            else f"but by its shape it is none of the models that {name} has. Who has a copy can put its mark into "
+            "another object: so nobody is named."
         )
-        return Trace(Answer.CANNOT_TELL, text, evidence, model, like)
-    text = f"{name}: it is the copy of '{model.name}' for this recipient (p {rounded_up(evidence.p)}).{where}"
+        text = f"Cannot tell. The message of {name} reads (p {rounded_up(evidence.p)}), {reason}{where}"
+        return Trace(Answer.CANNOT_TELL, text, evidence, _model(like), like)
+    text = f"{name}: it is the copy of '{own.model.name}' for this recipient (p {rounded_up(evidence.p)}).{where}"
     mixed = evidence.bound(best.runner_up_p) < PROVEN
     if mixed:
         text += " A second recipient reads beyond doubt, too: copies were mixed."
-    return Trace(Answer.NAME, text, evidence, model, like, name, mixed)
+    return Trace(Answer.NAME, text, evidence, own.model, own, name, mixed)
 
 
-def _unnamed(evidence: Evidence, like: Likeness | None) -> Trace:
+def _may_be(reading: Reading, likes: list[Likeness]) -> list[Likeness]:
+    """The models that what was read may be a copy of, the nearest first: by its shape, or by the original on which it
+    was laid.
+    """
+    if reading.of_some_part:
+        return []
+    if reading.original is None:
+        return [like for like in likes if like.alike]
+    laid = [like for like in likes if of_one_shape(like.model, reading.original)]
+    return sorted(laid, key=lambda like: like.model != reading.original)
+
+
+def _of_none(evidence: Evidence, likes: Likes) -> Trace:
     """Nobody's message is there for certain: nobody's copy, unless a mark may have been there."""
+    near = [one for one in map(nearest, likes.values()) if one and one.alike]
+    like = min(near, key=lambda one: one.difference, default=nearest(likes[evidence.best.piece]))
     doubt = _mark_without_name(evidence) or _doubtful_shape(like)
     if doubt:
         return Trace(Answer.CANNOT_TELL, f"Cannot tell. {doubt}", evidence, _model(like), like)
