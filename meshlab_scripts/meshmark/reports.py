@@ -2,6 +2,7 @@
 """The filters' reports as typed objects. What a newer plugin adds is in `more`."""
 
 from dataclasses import asdict, dataclass, field, fields
+from enum import IntEnum
 from typing import Self
 
 
@@ -63,6 +64,16 @@ class EmbedReport(Report):
         return f"'{self.message}' is embedded: {self.change} To read it: {self.recipe}"
 
 
+class Finding(IntEnum):
+    """The verdict's kind."""
+
+    NOT_FOUND = 0
+    PRESENT = 1
+    ANOTHER_MESSAGE = 2
+    ANOTHER_KEY = 3  # or setting
+    NO_MESSAGE = 4  # a mark of this key, but its message does not come out
+
+
 @dataclass(frozen=True, kw_only=True)
 class DetectReport(Report):
     """What was read, and what that is worth. Every p is an upper bound of the probability of as good a reading by
@@ -80,7 +91,7 @@ class DetectReport(Report):
     p_message: float
     verified: bool
     verdict: str
-    finding: int
+    finding: int  # a Finding
     detection_ratio: float | None = None
     p_value: float | None = None
     p_binomial: float | None = None

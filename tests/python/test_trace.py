@@ -3,6 +3,7 @@
 
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import meshmark
@@ -17,11 +18,14 @@ from meshmark.catalog.plan import digest
 from meshmark.catalog.recipients import Recipient
 from meshmark.command.app import main
 from meshmark.formats import Body, read_body
+from meshmark.reports import DetectReport, Finding
 from meshmark.settings import Settings
 from meshmark.shape.pieces import pieces
 from meshmark.shape.signature import body_signature, difference, signature
 from meshmark.tracing import Answer, Trace, trace
 from meshmark.tracing.likeness import Likeness
+from meshmark.tracing.readings import Evidence, Reading
+from meshmark.tracing.verdict import judge
 
 KEY = "correct horse battery staple"
 
@@ -103,6 +107,16 @@ def test_no_guess_where_it_cannot_be_told(shops: tuple[Shop, Shop], tmp_path: Pa
     for name in ("coarse.ply", "ruined.ply"):
         result = shop.trace(tmp_path / name)
         assert (result.answer, result.recipient) == (Answer.CANNOT_TELL, None), result.sentence
+
+
+def test_nobody_of_a_plate_only_where_each_piece_is_a_model(shops: tuple[Shop, Shop], tmp_path: Path) -> None:
+    shop = shops[0]
+    meshmark.attack(shop.copy("Jane", "body0.stl"), tmp_path / "ruined.ply", attack="Noise", amount=0.03)
+    unmarked = [body(number).apply_translation([400 * number, 0, 0]) for number in range(2)]
+    for second, answer in ((unmarked[1], Answer.NOBODY), (loaded(tmp_path / "ruined.ply"), Answer.CANNOT_TELL)):
+        trimesh.util.concatenate([unmarked[0], second.apply_translation([0, 400, 0])]).export(tmp_path / "plate.stl")
+        result = shop.trace(tmp_path / "plate.stl")
+        assert (result.answer, result.recipient) == (answer, None), result.sentence
 
 
 def test_a_copy_that_is_not_in_the_ledger_names_nobody(shops: tuple[Shop, Shop], tmp_path: Path) -> None:
@@ -247,10 +261,11 @@ def test_pieces_are_the_large_ones() -> None:
     assert found[1].points.max() == 5
 
 
-def test_on_a_coarse_model_a_mark_may_be_lost_by_little() -> None:
-    def model(faces: int) -> Model:
-        return Model(1, "a.stl", "", 0, faces // 2, faces, "mm", ())
+def model(faces: int) -> Model:
+    return Model(1, "a.stl", "", 0, faces // 2, faces, "mm", ())
 
+
+def test_on_a_coarse_model_a_mark_may_be_lost_by_little() -> None:
     touched, little = (
         Likeness("the whole file", model(3000), 2e-4, 1e-4, 1),
         Likeness("the whole file", model(3000), 2e-4, 3e-4, 1),
@@ -258,3 +273,39 @@ def test_on_a_coarse_model_a_mark_may_be_lost_by_little() -> None:
     assert touched.intact
     assert not little.intact
     assert Likeness("the whole file", model(30000), 0.01, 0.01, 0.9).intact
+
+
+def told(finding: Finding, presence: float | None = None, **more: object) -> Evidence:
+    """Of a file that was read once."""
+    report = DetectReport(
+        method="Layered", statistic="Mean", carriers=64, bits="", message="", trim=0, soft=[], samples=[], p_message=1,
+        verified=False, verdict="", finding=finding, presence=presence, **more,
+    )  # fmt: skip
+    return Evidence([Reading("the whole file", Settings(), None, report=report)], 1, 1)
+
+
+def test_a_mark_of_this_key_without_a_message_is_neither_nobodys_nor_of_another_key(shops: tuple[Shop, Shop]) -> None:
+    """Though the shape is intact."""
+    likes = {"the whole file": [Likeness("the whole file", model(30_000), 0, 0, 1)]}
+    with Ledger(shops[0].folder / "ledger.sqlite") as ledger:
+        for presence in (1e-9, 5e-7, 1e-4):
+            result = judge(told(Finding.NO_MESSAGE, presence), likes, ledger)
+            assert result.answer == Answer.CANNOT_TELL
+            assert "this key" in result.sentence
+            assert "another key" not in result.sentence
+        for finding, another in ((Finding.ANOTHER_KEY, True), (Finding.NOT_FOUND, False)):
+            result = judge(told(finding, 0.5), likes, ledger)
+            assert result.answer == Answer.NOBODY
+            assert ("another key" in result.sentence) == another
+
+
+def test_what_reads_from_some_part_names_nobody(shops: tuple[Shop, Shop]) -> None:
+    """Though the file as a whole is a model that the recipient has: it is not what was read."""
+    shop = shops[0]
+    with Ledger(shop.folder / "ledger.sqlite") as ledger:
+        (recipient, *_), (own, *_) = ledger.recipients(), ledger.models()
+        likes = {"the whole file": [Likeness("the whole file", own, 0, 0, 1)]}
+        for parts, answer in ((None, Answer.NAME), ([{"p_value": 1e-12}], Answer.CANNOT_TELL)):
+            whole = told(Finding.PRESENT, parts=parts)
+            read = replace(whole, readings=[replace(whole.best, recipient=recipient, p=1e-12)])
+            assert judge(read, likes, ledger).answer == answer
