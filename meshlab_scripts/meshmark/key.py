@@ -16,7 +16,7 @@ _number = itertools.count()
 
 
 class Key:
-    """A passphrase, `file:PATH` (that file's bytes) or `env:NAME`, as in the plugin's dialog."""
+    """A passphrase, `file:PATH` (what is in that file) or `env:NAME`, as in the plugin's dialog."""
 
     def __init__(self, source: str) -> None:
         if not source:
@@ -47,17 +47,17 @@ class Key:
         return secret.hex()
 
     def _bytes(self) -> bytes:
-        kind, _, rest = self._source.partition(":")
-        try:
-            if kind == "file":
-                return Path(rest).read_bytes()
-            if kind == "env":
-                return os.environ[rest].encode()
-        except OSError as error:
-            raise MeshmarkError(f"The key file '{rest}' cannot be read: {error.strerror}.") from error
-        except KeyError as error:
-            raise MeshmarkError(f"The environment variable '{rest}', which should hold the key, is not set.") from error
-        return unicodedata.normalize("NFC", self._source).encode()
+        """The secret that the plugin derives its key from, byte for byte (key_from_text() in vcg_ext/key/key.cpp).
+
+        All that is typed is in Unicode's composed form. A file counts without the end of its last line, which editors
+        add and drop; a variable counts as it is. What is empty is no key.
+        """
+        text = unicodedata.normalize("NFC", self._source)
+        if text.startswith("file:"):
+            return _read_file(text.removeprefix("file:"))
+        if text.startswith("env:"):
+            return _read_environment(text.removeprefix("env:"))
+        return text.encode()
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Key) and self._source == other._source
@@ -67,6 +67,23 @@ class Key:
 
     def __repr__(self) -> str:
         return f"Key({self._source!r})" if self.is_reference else "Key(a passphrase)"
+
+
+def _read_file(path: str) -> bytes:
+    try:
+        secret = Path(path).read_bytes().removesuffix(b"\n").removesuffix(b"\r")
+    except OSError as error:
+        raise MeshmarkError(f"The key file '{path}' cannot be read: {error.strerror}.") from error
+    if not secret:
+        raise MeshmarkError(f"The key file '{path}' is empty. Write the secret into it, or name another.")
+    return secret
+
+
+def _read_environment(name: str) -> bytes:
+    secret = os.environb.get(os.fsencode(name))
+    if not secret:
+        raise MeshmarkError(f"The environment variable '{name}', which should hold the key, is not set.")
+    return secret
 
 
 def find_key(key: "Key | str | None", key_file: Path | None = None) -> Key:
