@@ -21,8 +21,8 @@ from evaluation.report import write_report
 from evaluation.results import NoResults
 from evaluation.schedule import run_missing
 from evaluation.store import Store
-from meshmark import MeshmarkError
 from meshmark import plugin as loaded
+from meshmark.errors import MeshmarkError
 
 ROOT = Path(__file__).resolve().parents[1]
 PROTOCOLS = Path(__file__).resolve().parent / "protocols"

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Jobs on all cores, or on a user's cluster, by dask.distributed."""
+
+import logging
+import os
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import dask
+from dask.distributed import Client, Future, LocalCluster, as_completed
+
+from .errors import MeshmarkError
+
+
+@contextmanager
+def client(scheduler: str | None, workers: int = 0) -> Iterator[Client]:
+    """Of the cluster at this address, or of one with so many processes here; 0 is one for each core."""
+    if scheduler:
+        with Client(scheduler) as remote:
+            yield remote
+        return
+    with (
+        # A machine that slept, or a run that was paused, is no dead worker.
+        dask.config.set({"distributed.scheduler.worker-ttl": None}),
+        LocalCluster(
+            n_workers=workers or os.cpu_count(), threads_per_worker=1, dashboard_address=None,
+            silence_logs=logging.ERROR,
+        ) as cluster,
+        Client(cluster) as local,
+    ):  # fmt: skip
+        yield local
+
+
+def ended(futures: Iterable[Future]) -> Iterator[tuple[str, Any, BaseException | None]]:
+    """The key of each job, as they end, and what it returned, or the error that it or its worker died of.
+
+    :raises MeshmarkError: after those that ended, where the cluster was lost with the others
+    """
+    lost = 0
+    for future in as_completed(futures):
+        if future.status == "finished":
+            yield future.key, future.result(), None
+        elif future.status == "error":
+            yield future.key, None, future.exception()
+        else:  # the cluster is gone, which says nothing of the job
+            lost += 1
+        future.release()
+    if lost:
+        raise MeshmarkError(f"The cluster was lost with {lost} jobs to do. Run the same again: it goes on from there.")
