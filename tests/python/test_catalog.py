@@ -208,7 +208,9 @@ def test_one_broken_model_does_not_stop_the_others(order: Order) -> None:
     [
         ("recipient\nJane\nJane\n Bob \n\n", {"Jane": (), "Bob": ()}),
         ("number,recipient\n1,Jane\n", {"Jane": ()}),
-        ("name;x\nJane\n", {"Jane": ()}),
+        ("Email, Recipient \nj@x.org,Jane\n", {"Jane": ()}),
+        ("recipient;model;\nJane;a,b.stl;\nBob;;\n;;\n", {"Jane": ("a,b.stl",), "Bob": ()}),
+        ("Model\tRECIPIENT\r\na.stl\tJane\r\n", {"Jane": ("a.stl",)}),
         ("recipient,model\nJane,a.stl\nJane,b*.stl\nBob,\n", {"Jane": ("a.stl", "b*.stl"), "Bob": ()}),
         ('\ufeffrecipient,model\n"Doe, Jane",a.stl\n"Doe, Jane",\n', {"Doe, Jane": ()}),
     ],
@@ -216,6 +218,21 @@ def test_one_broken_model_does_not_stop_the_others(order: Order) -> None:
 def test_csv(tmp_path: Path, text: str, expected: dict) -> None:
     (tmp_path / "who.csv").write_text(text, encoding="utf-8")
     assert {one.name: one.models for one in read_recipients(tmp_path / "who.csv")} == expected
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("Jane Doe\nBob\n", "no column 'recipient', but 'Jane Doe'"),
+        ("name;x\nJane\n", "no column 'recipient', but 'name', 'x'"),
+        ("model,recipient\na.stl,Jane\n\nfandisk.off,\n", "Line 4 of .* names no recipient"),
+        ("recipient\nJane\nDoe, Bob\n", "Line 3 of .* more cells than columns"),
+    ],
+)
+def test_csv_is_not_guessed_at(tmp_path: Path, text: str, words: str) -> None:
+    (tmp_path / "who.csv").write_text(text)
+    with pytest.raises(meshmark.MeshmarkError, match=words):
+        read_recipients(tmp_path / "who.csv")
 
 
 def test_csv_that_names_nobody(tmp_path: Path) -> None:
