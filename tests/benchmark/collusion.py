@@ -86,7 +86,7 @@ def _alone(console: Console, copy: Path, shop: Shop) -> None:
 
 def _fill(ledger: Path, count: int) -> None:
     """Enters the first copy for so many others too."""
-    with Ledger(ledger) as open_ledger:
+    with Ledger(ledger, "write") as open_ledger:
         open_ledger.add_recipients(f"other {n}" for n in range(count))
     with sqlite3.connect(ledger) as sql:
         sql.execute(

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A catalogue's copies: whole, each once, whatever kills the run; and a ledger that always agrees with the files."""
 
+import errno
 import hashlib
 import os
 import signal
@@ -18,9 +19,12 @@ import pytest
 import trimesh
 from bodies import body, write_bodies
 from dask.distributed import LocalCluster
-from meshmark.catalog import Ledger, Order, forecast, make_copies
+from meshmark.catalog import Ledger, Order, Outcome, forecast, make_copies, work
 from meshmark.catalog import ledger as ledger_module
-from meshmark.catalog.recipients import read_recipients
+from meshmark.catalog import run as run_module
+from meshmark.catalog.recipients import Recipient, fits, read_recipients
+from meshmark.command import catalog as catalog_command
+from meshmark.command.app import main
 from meshmark.settings import Settings
 
 KEY = "correct horse battery staple"
@@ -147,6 +151,168 @@ def test_a_forecast_leaves_nothing(order: Order, tmp_path: Path) -> None:
     assert entered(order.copies) == before == visible(order.copies)
 
 
+def test_a_key_that_has_marked_nothing_may_be_replaced(order: Order, tmp_path: Path) -> None:
+    order = replace(order, recipients=order.recipients[:1])
+    assert made(replace(order, max_move=meshmark.length.read_length("1um"))).refused
+    (tmp_path / "secret.key").write_text("another")
+    assert made(order).made == 1
+    with Ledger(order.copies / "ledger.sqlite") as ledger:
+        ledger.require(meshmark.Key("another"))
+        with pytest.raises(meshmark.MeshmarkError, match="another key"):
+            ledger.require(meshmark.Key(KEY))
+
+
+def test_copies_are_no_models_even_where_they_lie_below_them(order: Order, tmp_path: Path) -> None:
+    order = replace(order, models=tmp_path, recipients=order.recipients[:1])
+    assert made(order).made == 1
+    body(3).export(tmp_path / "models" / ".part-of-something.stl")
+    assert made(order).made == 0
+    assert forecast(order, order.copies / "ledger.sqlite").copies == 0
+    another = tmp_path / "out2"
+    assert forecast(replace(order, copies=another), another / "ledger.sqlite").copies == 1
+    with pytest.raises(meshmark.MeshmarkError, match="folder of their own"):
+        forecast(replace(order, copies=tmp_path), tmp_path / "ledger.sqlite")
+
+
+def test_no_file_of_another_ledger_is_replaced(order: Order, tmp_path: Path) -> None:
+    order = replace(order, recipients=order.recipients[:1])
+    made(order)
+    before = visible(order.copies)
+    for run in (make_copies, forecast):
+        with pytest.raises(meshmark.MeshmarkError, match=r"not in the ledger '.*b\.sqlite'"):
+            run(order, tmp_path / "b.sqlite")
+    assert visible(order.copies) == before == entered(order.copies)
+
+
+def test_a_ledger_has_one_folder_which_may_move(order: Order, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    order = replace(order, copies=tmp_path / "shop" / "out", recipients=order.recipients[:1])
+    ledger = tmp_path / "shop" / "ledger.sqlite"
+
+    def crash(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(ledger_module, "_bring", crash)
+        with pytest.raises(KeyboardInterrupt):
+            make_copies(order, ledger, scheduler=SCHEDULER)
+    elsewhere = replace(order, copies=tmp_path / "elsewhere")
+    for run in (make_copies, forecast):
+        with pytest.raises(meshmark.MeshmarkError, match=f"are in '{order.copies}'"):
+            run(elsewhere, ledger)
+    for source, target in (("shop", "moved together"), ("moved together/out", "moved alone")):
+        (tmp_path / source).rename(tmp_path / target)
+        ledger = tmp_path / "moved together" / "ledger.sqlite"
+        order = replace(order, copies=tmp_path / target / "out" if target.endswith("together") else tmp_path / target)
+        outcome = make_copies(order, ledger)
+        assert (outcome.made, outcome.before) == (0, 1)
+        assert len(visible(order.copies)) == 1
+
+
+def test_a_ledger_is_written_by_one_run_at_a_time(order: Order, tmp_path: Path) -> None:
+    order = replace(order, recipients=order.recipients[:1])
+    said = []
+
+    def another(*_: object) -> None:
+        with pytest.raises(meshmark.MeshmarkError, match="Another run") as error:
+            make_copies(replace(order, copies=tmp_path / "elsewhere"), order.copies / "ledger.sqlite")
+        said.append(error)
+
+    assert made(order, tick=another).made == 1
+    assert len(said) == 2
+
+
+def test_a_fault_of_the_machine_is_no_refusal(order: Order, monkeypatch: pytest.MonkeyPatch) -> None:
+    order = replace(order, recipients=order.recipients[:1])
+
+    def full(*_: object) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    for place, name, fault, words in [
+        (Path, "replace", full, "No space left"),
+        (os, "fsync", full, "No space left"),
+        (run_module, "make", full, "No space left"),
+        (work, "_check", lambda *_: "", "another key"),
+    ]:
+        with monkeypatch.context() as patch:
+            patch.setattr(place, name, fault)
+            outcome = made(order)
+        assert (outcome.made, outcome.refused, list(outcome.failed)) == (0, {}, ["body0.stl for Jane Doe"])
+        assert words in outcome.failed["body0.stl for Jane Doe"]
+    source = order.models / "body0.stl"
+    text = source.read_bytes()
+    outcome = made(order, tick=lambda *_: source.unlink(missing_ok=True))
+    assert (outcome.made, outcome.refused, len(outcome.failed)) == (0, {}, 1)
+    source.write_bytes(text)
+    outcome = made(order)
+    assert (outcome.made, outcome.refused, outcome.failed) == (1, {}, {})
+
+
+def test_exit_code_and_words_of_what_failed(
+    order: Order, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    outcome = Outcome(made=1, failed={"body0.stl for Bob": "No space left on device"})
+    monkeypatch.setattr(catalog_command, "make_copies", lambda *_, **__: outcome)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "argv", ["meshmark", "catalog", "models", "who.csv", "out", "--key-file", "secret.key"])
+    with pytest.raises(SystemExit) as left:
+        main()
+    said = capsys.readouterr()
+    assert left.value.code == 1
+    assert "failed: body0.stl for Bob: No space left on device" in said.err
+    assert "1 failed" in said.out
+
+
+def test_a_refusal_of_what_is_not_ordered_any_more_is_not_told(order: Order) -> None:
+    outcome = made(replace(order, max_move=meshmark.length.read_length("1um")))
+    assert len(outcome.refused) == 2
+    assert list(made(replace(order, recipients=order.recipients[:1])).refused) == ["body0.stl for Jane Doe"]
+    body(5).export(order.models / "body0.stl")
+    outcome = made(replace(order, recipients=order.recipients[:1]))
+    assert (outcome.made, outcome.refused) == (1, {})
+
+
+def test_a_ledger_is_read_where_it_cannot_be_written(tmp_path: Path) -> None:
+    path = tmp_path / "ledger.sqlite"
+    with Ledger(path, "write") as ledger:
+        ledger.add_recipients(["Jane"])
+    tmp_path.chmod(0o555)
+    path.chmod(0o444)
+    program = """
+import sys
+from pathlib import Path
+from meshmark import MeshmarkError
+from meshmark.catalog import Ledger
+with Ledger(Path(sys.argv[1])) as ledger:
+    print(ledger.name(1))
+try:
+    Ledger(Path(sys.argv[1]), "write")
+except MeshmarkError as error:
+    print(error)
+"""
+    bound = ["setpriv", "--bounding-set=-all", "--inh-caps=-all"] if os.geteuid() == 0 else []  # as a user is
+    said = subprocess.check_output([*bound, sys.executable, "-c", program, path], text=True)
+    assert said.startswith("Jane\n")
+    assert "can be written" in said
+    assert "no ledger" not in said
+
+
+def test_a_ledger_that_is_busy_is_read_and_says_so_to_a_writer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "ledger.sqlite"
+    with Ledger(path, "write") as ledger:
+        ledger.add_recipients(["Jane"])
+    connect = sqlite3.connect
+    monkeypatch.setattr(sqlite3, "connect", lambda *names, **options: connect(*names, **options, timeout=0))
+    with closing(connect(path, isolation_level=None)) as other:
+        other.execute("BEGIN IMMEDIATE")
+        with Ledger(path) as ledger:
+            assert ledger.name(1) == "Jane"
+        with pytest.raises(meshmark.MeshmarkError, match="Another program is at work in it"):
+            Ledger(path, "write")
+    path.write_text("no database")
+    with pytest.raises(meshmark.MeshmarkError, match="is no ledger"):
+        Ledger(path)
+
+
 def test_another_key_is_refused(order: Order, tmp_path: Path) -> None:
     made(replace(order, recipients=order.recipients[:1]))
     (tmp_path / "another.key").write_text("another")
@@ -233,6 +399,17 @@ def test_csv_is_not_guessed_at(tmp_path: Path, text: str, words: str) -> None:
     (tmp_path / "who.csv").write_text(text)
     with pytest.raises(meshmark.MeshmarkError, match=words):
         read_recipients(tmp_path / "who.csv")
+
+
+def test_a_model_that_somebody_is_to_get_has_to_be_there(order: Order) -> None:
+    """A broken one is."""
+    (order.models / "broken.stl").write_bytes(b"nothing")
+    with pytest.raises(meshmark.MeshmarkError, match=r"fits 'fan\*.off', which"):
+        made(replace(order, recipients=[Recipient("Jane", ("body0.stl", "fan*.off"))]))
+    outcome = made(replace(order, recipients=[Recipient("Jane", ("broken.stl",))]))
+    assert (outcome.made, list(outcome.broken)) == (0, ["broken.stl"])
+    assert fits("a[1].stl", "a[1].stl")
+    assert fits("Å.stl", "A\u030a.*")
 
 
 def test_csv_that_names_nobody(tmp_path: Path) -> None:

@@ -14,8 +14,9 @@ from ..length import Length
 from ..settings import Settings
 from ..shape.signature import body_signature
 from .ledger import Ledger, Model
-from .recipients import Recipient
+from .recipients import Recipient, fits
 
+LOCK = ".meshmark.lock"  # in a folder of copies
 Track = Callable[[Iterable[Path]], Iterable[Path]]
 
 
@@ -34,12 +35,30 @@ class Order:
 
 
 @dataclass(frozen=True)
-class Job:
-    """One copy. It can be sent to another machine that sees the same files; the key is not in it, only where it is."""
+class Item:
+    """A copy that is ordered, whether it is there or not."""
 
     model: Model
     recipient: int
+    name: str  # the recipient's
     message: str
+
+    @property
+    def at(self) -> tuple[int, int]:
+        """Where the ledger has it."""
+        return self.model.id, self.recipient
+
+    def __str__(self) -> str:
+        return f"{self.model.name} for {self.name}"
+
+
+@dataclass(frozen=True)
+class Job:
+    """A copy to make. It can be sent to another machine that sees the same files; the key is not in it, only where it
+    is.
+    """
+
+    item: Item
     source: Path
     file: str  # its name in the folder of the copies
     order: Order
@@ -49,17 +68,29 @@ class Job:
     @property
     def name(self) -> str:
         """Of this job among all."""
-        return f"{self.model.id}-{self.recipient}"
+        return "{}-{}".format(*self.item.at)
 
 
-def model_files(folder: Path) -> list[Path]:
-    """All files below a folder that can be marked."""
+def model_files(folder: Path, copies: Path) -> list[Path]:
+    """All files below a folder that can be marked; not the copies of any run that lie there, and nothing hidden."""
     if not folder.is_dir():
         raise MeshmarkError(f"There is no folder '{folder}'.")
-    files = sorted(path for path in folder.rglob("*") if path.suffix.lower() in READERS and path.is_file())
+    if folder == copies:
+        raise MeshmarkError(f"The copies would lie among the models in '{folder}'. Name a folder of their own.")
+    below = {place for place in (copies, *(lock.parent for lock in folder.rglob(LOCK))) if folder in place.parents}
+    files = sorted(
+        path
+        for path in folder.rglob("*")
+        if path.suffix.lower() in READERS and path.is_file()
+        if below.isdisjoint(path.parents) and not _hidden(path.relative_to(folder))
+    )
     if not files:
         raise MeshmarkError(f"'{folder}' has no models: {', '.join(READERS)}.")
     return files
+
+
+def _hidden(path: Path) -> bool:
+    return any(part.startswith(".") for part in path.parts)
 
 
 def read_model(path: Path, folder: Path) -> Model:
@@ -80,40 +111,65 @@ def read_model(path: Path, folder: Path) -> Model:
     )
 
 
-def enter_models(ledger: Ledger, folder: Path, track: Track) -> tuple[list[Model], dict[str, str]]:
-    """The models of a folder as the ledger knows them, those that are new or have changed too; and what is broken."""
+def enter_models(ledger: Ledger, order: Order, track: Track) -> tuple[list[Model], dict[str, str]]:
+    """The models of an order as the ledger knows them, those that are new or have changed too; and what is broken.
+
+    :raises MeshmarkError: where there are none, or not those that a recipient is to get
+    """
+    files = {path.relative_to(order.models).as_posix(): path for path in model_files(order.models, order.copies)}
+    _require_models(order, list(files))
     known = {(model.name, model.sha256): model for model in ledger.models()}
     models, broken = [], {}
-    for path in track(model_files(folder)):
-        name = path.relative_to(folder).as_posix()
-        model = known.get((name, digest(path)))
-        if model is None:
-            try:
-                model = ledger.add_model(read_model(path, folder))
-            except FormatError as error:
-                broken[name] = str(error)
-                continue
-        models.append(model)
+    for name, path in zip(files, track(files.values()), strict=True):
+        try:
+            model = known.get((name, digest(path))) or ledger.add_model(read_model(path, order.models))
+        except (FormatError, OSError) as error:
+            broken[name] = str(error)
+        else:
+            models.append(model)
     return models, broken
 
 
-def missing_jobs(ledger: Ledger, order: Order, models: list[Model]) -> list[Job]:
-    """The copies that are neither there nor refused before."""
-    numbers = {name: (number, message) for number, (name, message) in ledger.recipients().items()}
+def _require_models(order: Order, names: list[str]) -> None:
+    patterns = dict.fromkeys(pattern for recipient in order.recipients for pattern in recipient.models)
+    missing = [f"'{pattern}'" for pattern in patterns if not any(fits(name, pattern) for name in names)]
+    if missing:
+        raise MeshmarkError(
+            f"No model in '{order.models}' fits {', '.join(missing)}, which recipients are to get. Write it as the "
+            f"model is called there, such as '{names[0]}'."
+        )
+
+
+def ordered(ledger: Ledger, order: Order, models: list[Model]) -> list[Item]:
+    """Every copy that the recipients get."""
+    numbers = {name: (number, f"id:{message}") for number, (name, message) in ledger.recipients().items()}
+    return [
+        Item(model, numbers[recipient.name][0], recipient.name, numbers[recipient.name][1])
+        for model in models
+        for recipient in order.recipients
+        if recipient.gets(model.name)
+    ]
+
+
+def missing_jobs(ledger: Ledger, order: Order, items: list[Item]) -> list[Job]:
+    """The copies that are neither there nor refused before.
+
+    :raises MeshmarkError: where another file has the name of one
+    """
     there = ledger.done() | ledger.refused().keys()
     taken = ledger.files()
     jobs = []
-    for model in models:
-        for recipient in order.recipients:
-            number, message = numbers[recipient.name]
-            if (model.id, number) in there or not recipient.gets(model.name):
-                continue
-            file = _free(f"{_folder(number, recipient.name)}/{model.name}", taken)
-            taken.add(file)
-            jobs.append(
-                Job(model, number, f"id:{message}", order.models / model.name, file, order, ledger.key_check or "",
-                    ledger.salt)
-            )  # fmt: skip
+    for item in items:
+        if item.at in there:
+            continue
+        file = _free(f"{_folder(item.recipient, item.name)}/{item.model.name}", taken)
+        if (order.copies / file).exists():
+            raise MeshmarkError(
+                f"'{order.copies / file}' is there, and not in the ledger '{ledger.path}'. Name the ledger that it "
+                "is in, or another folder for the copies, or move it away."
+            )
+        taken.add(file)
+        jobs.append(Job(item, order.models / item.model.name, file, order, ledger.key_check or "", ledger.salt))
     return jobs
 
 

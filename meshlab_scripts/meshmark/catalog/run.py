@@ -2,7 +2,6 @@
 """Runs the jobs on all cores, or on a user's cluster (dask.distributed), and keeps the ledger."""
 
 import fcntl
-import logging
 import os
 import secrets
 import tempfile
@@ -11,27 +10,24 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ..errors import MeshmarkError
 from ..settings import Settings
 from .ledger import Copy, Ledger
-from .plan import Job, Order, Track, enter_models, missing_jobs
+from .plan import LOCK, Item, Job, Order, Track, enter_models, missing_jobs, ordered
 from .work import Made, make, sweep
-
-if TYPE_CHECKING:
-    from dask.distributed import Client
 
 Tick = Callable[[int, int], None]  # how many are done, of how many
 
 
 @dataclass
 class Outcome:
-    """What a run did."""
+    """What a run did of what was ordered."""
 
     before: int = 0
     made: int = 0
     refused: dict[str, str] = field(default_factory=dict)  # why, by "model for recipient"
+    failed: dict[str, str] = field(default_factory=dict)  # why, likewise; the next run tries them again
     broken: dict[str, str] = field(default_factory=dict)  # why, by model
     seconds: float = 0
     worked: float = 0  # seconds of all workers together
@@ -67,21 +63,24 @@ def make_copies(
     if not order.key.is_reference:
         raise MeshmarkError("A catalogue needs its key in a file or in an environment variable: workers read it there.")
     began = time.perf_counter()
-    order = _absolute(order)
-    order.copies.mkdir(parents=True, exist_ok=True)
-    with _alone(order.copies), Ledger(ledger_file, create=True) as ledger:
-        ledger.require(order.key)
+    order, ledger_file = _absolute(order), ledger_file.resolve()
+    with (
+        _alone(order.copies / LOCK, f"in '{order.copies}'"),
+        _alone(ledger_file.with_name(f".{ledger_file.name}.lock"), f"with the ledger '{ledger_file}'"),
+        Ledger(ledger_file, "write") as ledger,
+    ):
+        ledger.begin(order.key, order.copies)
         ledger.settle(order.copies)
         sweep(order.copies)
         if retry:
             ledger.forget_refusals()
-        ledger.add_recipients(recipient.name for recipient in order.recipients)
-        models, broken = enter_models(ledger, order.models, track)
-        jobs = missing_jobs(ledger, order, models)
-        outcome = Outcome(before=len(ledger.done()), broken=broken)
+        items, broken = _items(ledger, order, track)
+        outcome = Outcome(before=_there(ledger, items), broken=broken)
+        jobs = missing_jobs(ledger, order, items)
         if jobs:
             _run(jobs, ledger, outcome, scheduler, workers, tick)
-        _tell_refusals(ledger, outcome)
+        reasons = ledger.refused()
+        outcome.refused = {str(item): reasons[item.at] for item in items if item.at in reasons}
     outcome.seconds = time.perf_counter() - began
     return outcome
 
@@ -90,63 +89,61 @@ def forecast(order: Order, ledger_file: Path, *, workers: int = 0, track: Track 
     """What make_copies() would do. Marks one model of middling size for nobody, to see how long that takes."""
     order = _absolute(order)
     workers = workers or os.cpu_count() or 1
+    with Ledger(ledger_file, "draft") as ledger:
+        ledger.begin(order.key, order.copies)
+        items, broken = _items(ledger, order, track)
+        before = _there(ledger, items)
+        jobs = missing_jobs(ledger, order, items)
+    seconds = None
     with tempfile.TemporaryDirectory(prefix="meshmark-") as folder:
-        with _copy_of(ledger_file, Path(folder) / "ledger.sqlite") as ledger:
-            before = len(ledger.done())
-            ledger.require(order.key)
-            ledger.add_recipients(recipient.name for recipient in order.recipients)
-            models, broken = enter_models(ledger, order.models, track)
-            jobs = missing_jobs(ledger, order, models)
-        jobs_by_size = sorted(jobs, key=lambda job: job.model.vertices)
-        seconds = None
+        jobs_by_size = sorted(jobs, key=lambda job: job.item.model.vertices)
         for job in jobs_by_size[len(jobs) // 2 :: max(1, len(jobs) // 8)]:  # the first may refuse
             tried = make(replace(job, order=replace(order, copies=Path(folder))), "forecast")
-            if not tried.error:
-                seconds = tried.seconds / job.model.vertices * sum(j.model.vertices for j in jobs) / workers
+            if tried.part:
+                vertices = sum(j.item.model.vertices for j in jobs)
+                seconds = tried.seconds / job.item.model.vertices * vertices / workers
                 break
-    return Forecast(len(jobs), before, sum(job.model.bytes for job in jobs), seconds, workers, broken)
+    return Forecast(len(jobs), before, sum(job.item.model.bytes for job in jobs), seconds, workers, broken)
+
+
+def _items(ledger: Ledger, order: Order, track: Track) -> tuple[list[Item], dict[str, str]]:
+    """What is ordered, in the ledger with all that it consists of; and which models are broken."""
+    models, broken = enter_models(ledger, order, track)
+    ledger.add_recipients(recipient.name for recipient in order.recipients)
+    return ordered(ledger, order, models), broken
+
+
+def _there(ledger: Ledger, items: list[Item]) -> int:
+    done = ledger.done()
+    return sum(item.at in done for item in items)
 
 
 def _run(jobs: list[Job], ledger: Ledger, outcome: Outcome, scheduler: str | None, workers: int, tick: Tick) -> None:
-    from dask.distributed import as_completed
+    from ..cluster import client, ended  # dask takes longer to load than most commands need
 
     by_name = {job.name: job for job in jobs}
     run = secrets.token_hex(4)
-    lost = 0
-    with _client(scheduler, workers) as client:
-        futures = [client.submit(make, job, run, key=f"{run}-{job.name}", pure=False) for job in jobs]
+    with client(scheduler, workers) as dask:
+        futures = [dask.submit(make, job, run, key=f"{run}-{job.name}", pure=False) for job in jobs]
         tick(0, len(jobs))
-        for number, future in enumerate(as_completed(futures), 1):
-            job = by_name[future.key.partition("-")[2]]
-            if future.status == "finished":
-                _enter(job, future.result(), ledger, outcome)
-            elif future.status == "error":  # make() raises nothing: the job took its worker with it
-                ledger.refuse(job.model.id, job.recipient, f"The worker died: {future.exception()!r}")
-            else:
-                lost += 1  # the cluster is gone, which says nothing of the job
-            future.release()
+        for number, (name, result, death) in enumerate(ended(futures), 1):
+            made = Made(failure=f"The worker gave no answer: {death!r}.") if death else result
+            _enter(by_name[name.partition("-")[2]], made, ledger, outcome)
             tick(number, len(jobs))
-    if lost:
-        raise MeshmarkError(f"The cluster was lost with {lost} copies to make. Run the same again: it goes on there.")
 
 
 def _enter(job: Job, made: Made, ledger: Ledger, outcome: Outcome) -> None:
     outcome.worked += made.seconds
-    if made.error:
-        ledger.refuse(job.model.id, job.recipient, made.error)
-        return
-    figures = dict(made.figures or {})
-    outcome.embedded += sum((figures.pop("seconds", None) or {}).values())
-    outcome.made += 1
-    copy = Copy(job.model.id, job.recipient, job.file, made.sha256, made.part, Settings(**made.recipe), figures)
-    ledger.accept(copy, job.order.copies)
-
-
-def _tell_refusals(ledger: Ledger, outcome: Outcome) -> None:
-    models = {model.id: model.name for model in ledger.models()}
-    names = ledger.recipients()
-    for (model, recipient), reason in ledger.refused().items():
-        outcome.refused[f"{models[model]} for {names[recipient][0]}"] = reason
+    if made.refusal:
+        ledger.refuse(*job.item.at, made.refusal)
+    elif made.failure:
+        outcome.failed[str(job.item)] = made.failure
+    else:
+        figures = dict(made.figures or {})
+        outcome.embedded += sum((figures.pop("seconds", None) or {}).values())
+        outcome.made += 1
+        copy = Copy(*job.item.at, job.file, made.sha256, made.part, Settings(**made.recipe), figures)
+        ledger.accept(copy, job.order.copies)
 
 
 def _absolute(order: Order) -> Order:
@@ -154,42 +151,12 @@ def _absolute(order: Order) -> Order:
 
 
 @contextmanager
-def _copy_of(ledger: Path, copy: Path) -> Iterator[Ledger]:
-    """A forecast leaves no trace: it works on a copy of the ledger, or on an empty one."""
-    if ledger.is_file():
-        with Ledger(ledger) as old:
-            old.copy_to(copy)
-    with Ledger(copy, create=True) as opened:
-        yield opened
-
-
-@contextmanager
-def _alone(folder: Path) -> Iterator[None]:
-    """Two runs at once into one folder would take each other's unfinished files away."""
-    with (folder / ".lock").open("w") as lock:
+def _alone(lock: Path, where: str) -> Iterator[None]:
+    """Two runs at once would take each other's unfinished files away."""
+    lock.parent.mkdir(parents=True, exist_ok=True)
+    with lock.open("w") as file:
         try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as error:
-            raise MeshmarkError(f"Another run is at work in '{folder}'.") from error
+            raise MeshmarkError(f"Another run is at work {where}. Wait for its end.") from error
         yield
-
-
-@contextmanager
-def _client(scheduler: str | None, workers: int) -> "Iterator[Client]":
-    import dask  # takes longer to load than most commands need
-    from dask.distributed import Client, LocalCluster
-
-    if scheduler:
-        with Client(scheduler) as client:
-            yield client
-        return
-    with (
-        # A machine that slept, or a run that was paused, is no dead worker.
-        dask.config.set({"distributed.scheduler.worker-ttl": None}),
-        LocalCluster(
-            n_workers=workers or os.cpu_count(), threads_per_worker=1, dashboard_address=None,
-            silence_logs=logging.ERROR,
-        ) as cluster,
-        Client(cluster) as client,
-    ):  # fmt: skip
-        yield client

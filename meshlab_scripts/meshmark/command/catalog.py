@@ -56,7 +56,8 @@ def catalog(
     """Make a marked copy of each model in FOLDER for each recipient, and note in a ledger whose is which.
 
     A run that was stopped, in whatever way, goes on where it was when called again. Each file is read again, and
-    counts only where its mark is there. Exit code 1: some copies could not be made.
+    counts only where its mark is there. What a model refuses is not tried again, unless with --retry; what failed on
+    a machine is. Exit code 1: some copies could not be made.
     """
     order = Order(
         models, copies, read_recipients(recipients), find_key(None, key_file),
@@ -79,7 +80,7 @@ def catalog(
             tick=lambda done, total: progress.update(task, completed=done, total=total),
         )  # fmt: skip
     _show_outcome(outcome, file, as_json)
-    raise typer.Exit(1 if outcome.refused or outcome.broken else 0)
+    raise typer.Exit(1 if outcome.refused or outcome.failed or outcome.broken else 0)
 
 
 def _show_forecast(plan: Forecast, as_json: bool) -> None:
@@ -99,16 +100,22 @@ def _show_outcome(outcome: Outcome, ledger: Path, as_json: bool) -> None:
         print_json(vars(outcome))
         return
     warn([f"{name}: {reason}" for name, reason in outcome.broken.items()])
-    for reason, count in Counter(outcome.refused.values()).most_common():
-        first = next(name for name, text in outcome.refused.items() if text == reason)
-        others = f" and {count - 1} more" if count > 1 else ""
-        errors.print(f"[yellow]refused:[/] {escape(f'{first}{others}: {reason}')}", soft_wrap=True)
+    _show_reasons("refused", outcome.refused)
+    _show_reasons("failed", outcome.failed)
     share = f", {outcome.embedded / outcome.worked:.0%} of the work is embedding" if outcome.worked else ""
+    failed = f", {len(outcome.failed):,} failed (run the same again to try them anew)" if outcome.failed else ""
     console.print(
         f"[bold]{outcome.made:,} copies made in {_duration(outcome.seconds)}[/]{share}; {outcome.before:,} were there, "
-        f"{len(outcome.refused):,} refused. Ledger: {escape(str(ledger))}",
+        f"{len(outcome.refused):,} refused{failed}. Ledger: {escape(str(ledger))}",
         soft_wrap=True,
     )
+
+
+def _show_reasons(word: str, reasons: dict[str, str]) -> None:
+    for reason, count in Counter(reasons.values()).most_common():
+        first = next(name for name, text in reasons.items() if text == reason)
+        others = f" and {count - 1} more" if count > 1 else ""
+        errors.print(f"[yellow]{word}:[/] {escape(f'{first}{others}: {reason}')}", soft_wrap=True)
 
 
 def _duration(seconds: float) -> str:
