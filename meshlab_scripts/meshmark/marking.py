@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
+import numpy as np
 import pymeshlab
 
 from . import host, plugin
@@ -66,8 +67,7 @@ def embed(
     body = read_body(source)
     with host.own_meshes() as meshes:
         layer = Layer.add(meshes, body)
-        report = _embed(meshes, values, secret)
-        _check_move(report, limit, body.unit)
+        report = _embed(meshes, values, secret, limit, body.unit)
         moved = layer.moved(meshes.current_mesh())
     found = Settings(method, statistic, report.carriers, trim)
     _write_checked(body, moved, target, message, secret, found)
@@ -169,9 +169,20 @@ def _add(meshes: pymeshlab.MeshSet, body: Body) -> None:
     meshes.add_mesh(pymeshlab.Mesh(points, number[body.faces].astype("int32")))
 
 
-def _embed(meshes: pymeshlab.MeshSet, values: dict[str, host.Value], key: Key) -> EmbedReport:
+def _embed(
+    meshes: pymeshlab.MeshSet,
+    values: dict[str, host.Value],
+    key: Key,
+    limit: Length | None = None,
+    unit: str = "mm",
+) -> EmbedReport:
+    before = meshes.current_mesh().transformed_vertex_matrix()
     with key.lent() as lent:
-        return EmbedReport.read(host.apply_with_report(meshes, plugin.EMBED, key=lent, **values))
+        report = EmbedReport.read(host.apply_with_report(meshes, plugin.EMBED, key=lent, **values))
+    if limit is not None:
+        moves = np.linalg.norm(meshes.current_mesh().transformed_vertex_matrix() - before, axis=1)
+        _check_move(report, float(moves.max()), limit.within(unit), unit)
+    return report
 
 
 def _embed_layer(
@@ -182,22 +193,20 @@ def _embed_layer(
         mesh = meshes.current_mesh()
         with host.own_meshes() as copy:
             copy.add_mesh(pymeshlab.Mesh(mesh.vertex_matrix(), mesh.face_matrix()))
-            _check_move(_embed(copy, values, key), limit, "mm")
+            copy.set_matrix(transformmatrix=mesh.transform_matrix(), freeze=False)
+            _embed(copy, values, key, limit)
     return _embed(meshes, values, key)
 
 
-def _check_move(report: EmbedReport, limit: Length | None, unit: str) -> None:
-    if limit is None:
+def _check_move(report: EmbedReport, move: float, most: float, unit: str) -> None:
+    """Of what is seen: the layer's matrix may stretch or magnify it."""
+    if move <= most:
         return
-    most = limit.within(unit)
-    if report.max_displacement <= most:
-        return
-    strength = report.strength * most / report.max_displacement * 0.9
     slides = f"Method {Method.WAVES} slides no vertices along the surface and may fit; or "
     raise MovesTooMuch(
-        f"The mark moves a vertex by {report.max_displacement:.3g} {unit}, and {most:.3g} {unit} are allowed. "
-        f"{'' if report.method == Method.WAVES else slides}a strength of {strength:.2g}, with a weaker mark. "
-        f"The file's unit is taken to be {unit}."
+        f"The mark moves a vertex by {move:.3g} {unit}, and {most:.3g} {unit} are allowed. "
+        f"{'' if report.method == Method.WAVES else slides}a strength of {report.strength * most / move * 0.9:.2g}, "
+        f"with a weaker mark. The file's unit is taken to be {unit}."
     )
 
 

@@ -4,6 +4,7 @@
 import os
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import meshmark
@@ -67,6 +68,26 @@ def test_too_long_a_move_is_refused_in_the_files_unit(
     out = tmp_path / "out.off"
     meshmark.embed(ELEPHANT, out, message="id:17", key=KEY, method="Waves", max_move=f"{moves * 1.01}mm")
     assert out.read_bytes() == marked[0].read_bytes()
+
+
+@pytest.mark.parametrize("matrix", [np.diag([1, 1, 20, 1]), np.diag([20, 20, 20, 1])])
+def test_the_limit_is_of_what_is_seen(matrix: np.ndarray) -> None:
+    """The layer's matrix may stretch it, or be a similarity, which the filter leaves alone."""
+
+    def seen(max_move: float | None) -> np.ndarray:
+        meshes = pymeshlab.MeshSet()
+        meshes.load_new_mesh(str(ELEPHANT))
+        meshes.set_matrix(transformmatrix=matrix, freeze=False)
+        with suppress(meshmark.MovesTooMuch):
+            meshmark.embed(meshes, message="id:5", key=KEY, method="L-M", max_move=max_move)
+        return meshes.current_mesh().transformed_vertex_matrix()
+
+    marked = seen(None)
+    plain = seen(1e-9)
+    most = np.linalg.norm(marked - plain, axis=1).max()
+    assert most > 0
+    np.testing.assert_array_equal(seen(most * 0.99), plain)
+    np.testing.assert_array_equal(seen(most * 1.01), marked)
 
 
 @pytest.mark.parametrize(
