@@ -12,7 +12,7 @@ import pymeshlab
 
 from . import host, plugin
 from .errors import FormatError, MovesTooMuch, NotReadBack
-from .formats import Body, Points, Skin, read_body, weld
+from .formats import Body, Points, Skin, read_body
 from .key import Key, find_key
 from .layer import Layer
 from .length import Length, read_length
@@ -165,8 +165,7 @@ def opened(mesh: Mesh) -> Iterator[pymeshlab.MeshSet]:
 
 def _add(meshes: pymeshlab.MeshSet, body: Body) -> None:
     """Its shape alone."""
-    points, number = weld(body.points)
-    meshes.add_mesh(pymeshlab.Mesh(points, number[body.faces].astype("int32")))
+    meshes.add_mesh(pymeshlab.Mesh(*body.welded()))
 
 
 def _embed(
@@ -216,7 +215,7 @@ def _write_checked(
     """Writes beside the target, reads that again, and puts it in the target's place where the message is there."""
     part = target.with_name(f".{os.getpid()}-{target.name}")
     try:
-        body.write(part, *moved)
+        part.write_bytes(body.written(*moved))
         found = detect(part, key=key, expected=message, **settings.values())
         if not found.present:
             raise NotReadBack(f"'{target}' does not read back: {found.verdict} Nothing was written.")

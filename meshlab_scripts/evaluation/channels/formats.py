@@ -27,7 +27,7 @@ def round_trip(kind: str) -> Channel:
                     host.read(meshes, first)
                     host.save(meshes, second)
             body = read_body(second)
-            body.write(third, body.points, body.skin)
+            third.write_bytes(body.written(body.points, body.skin))
             return Shape.read(third)
 
     return channel

@@ -1,8 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files: the shape that is in them and what it shows, and the same files with other positions."""
 
+import lzma
+import struct
+import zlib
 from collections.abc import Callable
 from pathlib import Path
+from xml.etree.ElementTree import ParseError
+from zipfile import BadZipFile
+
+import numpy as np
 
 from ..errors import FormatError
 from . import glb, hosted, obj, off, ply, stl, threemf
@@ -17,6 +24,12 @@ READERS: dict[str, Callable[[Path], Body]] = {
     ".3mf": threemf.read,
 }
 
+# What broken files lead to: the language's own errors, and those of the libraries that read.
+_BROKEN = (
+    ArithmeticError, AttributeError, EOFError, LookupError, MemoryError, RuntimeError, TypeError, ValueError,
+    BadZipFile, ParseError, lzma.LZMAError, struct.error, zlib.error,
+)  # fmt: skip
+
 __all__ = ["READERS", "Body", "Corners", "Points", "Skin", "read_body", "weld"]
 
 
@@ -28,6 +41,10 @@ def read_body(path: Path) -> Body:
     if not path.is_file():
         raise FormatError(f"There is no file '{path}'.")
     try:
-        return READERS.get(path.suffix.lower(), hosted.read)(path)
-    except (ValueError, KeyError, IndexError, TypeError, OverflowError) as error:  # what broken files lead to
-        raise FormatError(f"'{path}' cannot be read: it is broken ({error}).") from error
+        body = READERS.get(path.suffix.lower(), hosted.read)(path)
+    except _BROKEN as error:
+        why = str(error) or type(error).__name__
+        raise FormatError(f"'{path}' cannot be read: it is broken ({why}). Export it anew.") from error
+    if not np.isfinite(body.points).all():
+        raise FormatError(f"'{path}' has coordinates that are no finite numbers. Remove these vertices first.")
+    return body

@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a file says of the shape, and how its positions are written back with all else left as it is."""
+"""What a file says of the shape, and the same file with other positions and all else left as it is."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+
+from ..errors import FormatError
 
 Points = NDArray[np.float64]  # a row a vertex
 Faces = NDArray[np.int32]  # a row a triangle
 Corners = NDArray[np.float64]  # of each triangle's three corners some numbers: faces x 3 x numbers
+_PLACES, _TRIANGLES = 100_000, 50_000_000  # that a file may have
 
 
 @dataclass(frozen=True)
@@ -29,8 +31,47 @@ class Body:
     points: Points
     faces: Faces
     unit: str  # of length.MILLIMETRES
-    write: Callable[[Path, Points, Skin], None]  # the same file with these positions, and this skin
+    written: Callable[[Points, Skin], bytes]  # the same file with these positions, and this skin
     skin: Skin = field(default_factory=Skin)
+
+    def welded(self) -> tuple[Points, Faces]:
+        """The distinct points, and the triangles over these."""
+        points, number = weld(self.points)
+        return points, number[self.faces].astype(np.int32)
+
+
+def triangles(corners: ArrayLike, count: int) -> Faces:
+    """What triangles name, three numbers a row.
+
+    :raises ValueError: where there are not as many
+    """
+    rows = np.asarray(corners, dtype=np.int64).reshape(-1, 3)
+    if len(rows) and (rows.min() < 0 or rows.max() >= count):
+        raise ValueError(f"a triangle names one that is not among the {count} that there are")
+    return rows.astype(np.int32)
+
+
+def check_places(places: int, shown: int = 0) -> None:
+    """A small file can show one mesh in millions of places.
+
+    :raises ValueError: where no memory would hold its triangles
+    """
+    if places > _PLACES or shown > _TRIANGLES:
+        raise ValueError(f"it shows meshes in more than {_PLACES:,} places, or more than {_TRIANGLES:,} triangles")
+
+
+def before_matrix(points: Points, linear: NDArray[np.float64]) -> Points:
+    """The points that a file's matrix takes to these.
+
+    :raises FormatError: where it takes others there, too
+    """
+    try:
+        return np.linalg.solve(linear, points.T).T
+    except np.linalg.LinAlgError as error:
+        raise FormatError(
+            "A matrix in the file flattens a part of it, and nothing can be written back through that. "
+            "Take that part away, or give it its shape by its points and not by a matrix."
+        ) from error
 
 
 def weld(corners: Points) -> tuple[Points, NDArray[np.int64]]:
@@ -42,13 +83,3 @@ def weld(corners: Points) -> tuple[Points, NDArray[np.int64]]:
     place = np.empty_like(order)
     place[order] = np.arange(len(order))
     return whole[first[order]], place[number]
-
-
-def write_whole(path: Path, contents: bytes) -> None:
-    """The file is there whole, or as it was."""
-    part = path.with_name(f".{path.name}.part")
-    try:
-        part.write_bytes(contents)
-        part.replace(path)
-    finally:
-        part.unlink(missing_ok=True)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""GLB (binary glTF 2.0): positions, the first texture coordinates and colours are changed in the file's own buffer; all
-else stays byte for byte.
+"""GLB (binary glTF 2.0): positions, the first texture coordinates and colours are changed in the file's own buffer, and
+the bounds of these in its JSON; all else stays byte for byte.
 
 The body is the scene with its nodes' matrices. Khronos: glTF 2.0 specification, sections 3.6 (accessors), 4 (GLB).
 """
@@ -15,8 +15,10 @@ from typing import Any
 import numpy as np
 
 from ..errors import FormatError
-from .body import Body, Corners, Faces, Points, Skin, write_whole
+from .body import Body, Corners, Faces, Points, Skin, before_matrix, check_places, triangles
 from .corners import of_vertices
+from .json_text import members
+from .lines import Edit, patched
 
 Json = dict[str, Any]
 _JSON, _BIN = 0x4E4F534A, 0x004E4942
@@ -47,40 +49,58 @@ class _Shown:
 
 def read(path: Path) -> Body:
     """All triangles of the scene."""
-    document, binary = _open(path)
+    file = _File.read(path)
+    document, binary = file.document, file.binary
     parts: list[_Part] = []
+    numbers: dict[tuple[int, int], int] = {}  # of the parts, by accessor and node
     points: list[Points] = []
     faces: list[Faces] = []
     shown: dict[str, list[_Shown]] = {_TEXTURE: [], _COLOR: []}
+    vertices, count = 0, 0
     for primitive, matrix in _primitives(document):
-        number = primitive["attributes"]["POSITION"]
-        part = next((p for p in parts if p.accessor == number and p.matrix is matrix), None)
-        if part is None:
-            own = _view(document, binary, number).astype(float)
-            part = _Part(number, matrix, sum(map(len, points)), len(own))
-            parts.append(part)
+        accessor = primitive["attributes"]["POSITION"]
+        number = numbers.setdefault((accessor, id(matrix)), len(parts))
+        if number == len(parts):
+            own = _view(document, binary, accessor).astype(float)
+            parts.append(_Part(accessor, matrix, vertices, len(own)))
             points.append(own @ matrix[:3, :3].T + matrix[:3, 3])
-        local = _triangles(document, binary, primitive, part.count)
+            vertices += len(own)
+        part = parts[number]
+        local = triangles(_corners_of(document, binary, primitive, part.count), part.count)
         for name, places in shown.items():
             if name in primitive["attributes"]:
-                places.append(_Shown(primitive["attributes"][name], sum(map(len, faces)), local))
+                places.append(_Shown(primitive["attributes"][name], count, local))
         faces.append(local + part.begin)
+        count += len(local)
+        check_places(len(faces), count)
     if not points:
         raise FormatError(f"'{path}' has no triangles.")
 
-    def write(out: Path, moved: Points, skin: Skin) -> None:
-        _write(path, out, parts, moved, [(shown[_TEXTURE], skin.texture), (shown[_COLOR], skin.colors)])
+    own = np.concatenate(points)
 
-    count = sum(map(len, faces))
+    def written(moved: Points, skin: Skin) -> bytes:
+        if len({part.accessor for part in parts}) < len(parts):
+            raise FormatError(
+                f"'{path}' shows one mesh in several places. Make the copies real ones first, or mark one."
+            )
+        changed = bytearray(binary)
+        for part in parts:
+            _move(document, changed, part, own, moved)
+        for places, corners in ((shown[_TEXTURE], skin.texture), (shown[_COLOR], skin.colors)):
+            for one in places if corners is not None else []:
+                _show(document, changed, one, corners[one.first : one.first + len(one.faces)])
+        accessors = {part.accessor for part in parts} | {one.accessor for places in shown.values() for one in places}
+        return file.with_binary(changed, sorted(accessors))
+
     skin = Skin(
         _corners(document, binary, shown[_TEXTURE], np.zeros((count, 3, 2))),
         _corners(document, binary, shown[_COLOR], np.ones((count, 3, 4))),
         _pictures(shown[_TEXTURE], count),
     )
-    return Body(np.concatenate(points), np.concatenate(faces).astype(np.int32), "m", write, skin)
+    return Body(own, np.concatenate(faces).astype(np.int32), "m", written, skin)
 
 
-def _corners(document: Json, binary: bytearray, shown: list[_Shown], corners: Corners) -> Corners | None:
+def _corners(document: Json, binary: bytes, shown: list[_Shown], corners: Corners) -> Corners | None:
     """What the triangles show at their corners; None where none shows anything."""
     for one in shown:
         values = _view(document, binary, one.accessor)
@@ -101,25 +121,12 @@ def _full(values: np.ndarray) -> float:
     return float(np.iinfo(values.dtype).max) if values.dtype.kind in "iu" else 1
 
 
-def _write(
-    path: Path, out: Path, parts: list[_Part], moved: Points, skin: list[tuple[list[_Shown], Corners | None]]
-) -> None:
-    if len({part.accessor for part in parts}) < len(parts):
-        raise FormatError(f"'{path}' shows one mesh in several places. Make the copies real ones first, or mark one.")
-    document, binary = _open(path)
-    for part in parts:
-        placed = moved[part.begin : part.begin + part.count] - part.matrix[:3, 3]
-        local = np.linalg.solve(part.matrix[:3, :3], placed.T).T.astype("<f4")
-        _view(document, binary, part.accessor)[:] = local
-        accessor = document["accessors"][part.accessor]
-        accessor["min"], accessor["max"] = local.min(axis=0).tolist(), local.max(axis=0).tolist()
-    for shown, corners in skin:
-        for one in shown if corners is not None else []:
-            _show(document, binary, one, corners[one.first : one.first + len(one.faces)])
-    text = json.dumps(document, separators=(",", ":"), ensure_ascii=False).encode()
-    text += b" " * (-len(text) % 4)
-    chunks = struct.pack("<II", len(text), _JSON) + text + struct.pack("<II", len(binary), _BIN) + bytes(binary)
-    write_whole(out, struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
+def _move(document: Json, binary: bytearray, part: _Part, own: Points, moved: Points) -> None:
+    before, after = (points[part.begin : part.begin + part.count] for points in (own, moved))
+    rows = (after != before).any(axis=1)
+    if rows.any():
+        local = before_matrix(after[rows] - part.matrix[:3, 3], part.matrix[:3, :3])
+        _view(document, binary, part.accessor)[rows] = local
 
 
 def _show(document: Json, binary: bytearray, shown: _Shown, corners: Corners) -> None:
@@ -127,30 +134,65 @@ def _show(document: Json, binary: bytearray, shown: _Shown, corners: Corners) ->
     full = _full(values)
     new = of_vertices(shown.faces, corners[..., : values.shape[1]], values / full) * full
     values[:] = new if full == 1 else np.round(new)
-    accessor = document["accessors"][shown.accessor]
-    if "min" in accessor:
-        accessor["min"], accessor["max"] = values.min(axis=0).tolist(), values.max(axis=0).tolist()
 
 
-def _open(path: Path) -> tuple[Json, bytearray]:
-    contents = path.read_bytes()
-    if contents[:4] != b"glTF" or len(contents) < 20 or struct.unpack_from("<I", contents, 4)[0] != 2:
-        raise FormatError(f"'{path}' is no GLB file of glTF 2.0.")
-    document, binary, begin = None, bytearray(), 12
-    while begin + 8 <= len(contents):
-        length, kind = struct.unpack_from("<II", contents, begin)
-        chunk = contents[begin + 8 : begin + 8 + length]
-        if kind == _JSON:
-            document = json.loads(chunk)
-        elif kind == _BIN:
-            binary = bytearray(chunk)
-        begin += 8 + length
-    if document is None:
-        raise FormatError(f"'{path}' is not whole.")
-    packed = [name for name in document.get("extensionsRequired", []) if name in _COMPRESSED]
-    if packed:
-        raise FormatError(f"'{path}' is packed ({packed[0]}). Unpack it first, mark it, and pack it again.")
-    return document, binary
+@dataclass(frozen=True)
+class _File:
+    """A header of 12 bytes, and chunks of which each has its length and its kind before it."""
+
+    contents: bytes
+    json: slice
+    binary_place: slice
+    document: Json
+
+    @classmethod
+    def read(cls, path: Path) -> "_File":
+        contents = path.read_bytes()
+        if contents[:4] != b"glTF" or len(contents) < 20 or struct.unpack_from("<I", contents, 4)[0] != 2:
+            raise FormatError(f"'{path}' is no GLB file of glTF 2.0.")
+        chunks: dict[int, slice] = {}
+        begin = 12
+        while begin + 8 <= len(contents):
+            length, kind = struct.unpack_from("<II", contents, begin)
+            chunks.setdefault(kind, slice(begin + 8, begin + 8 + length))
+            begin += 8 + length
+        if _JSON not in chunks or any(chunk.stop > len(contents) for chunk in chunks.values()):
+            raise FormatError(f"'{path}' is not whole.")
+        document = json.loads(contents[chunks[_JSON]])
+        packed = [name for name in document.get("extensionsRequired", []) if name in _COMPRESSED]
+        if packed:
+            raise FormatError(f"'{path}' is packed ({packed[0]}). Unpack it first, mark it, and pack it again.")
+        return cls(contents, chunks[_JSON], chunks.get(_BIN, slice(begin, begin)), document)
+
+    @property
+    def binary(self) -> bytes:
+        """The file's own buffer."""
+        return self.contents[self.binary_place]
+
+    def with_binary(self, binary: bytes | bytearray, accessors: list[int]) -> bytes:
+        """The same file with other contents of these accessors; in the JSON their bounds change, where they have."""
+        changes = list(self._bounds(binary, accessors))
+        longer = sum(len(new) - (end - begin) for begin, end, new in changes)
+        padding = -longer % 4
+        changes.append((self.json.stop, self.json.stop, b" " * padding))
+        for place in (8, self.json.start - 8):  # where the lengths of the file and of the JSON stand
+            length = struct.unpack_from("<I", self.contents, place)[0] + longer + padding
+            changes.append((place, place + 4, struct.pack("<I", length)))
+        changes.append((self.binary_place.start, self.binary_place.stop, bytes(binary)))
+        return patched(self.contents, changes)
+
+    def _bounds(self, binary: bytes | bytearray, accessors: list[int]) -> Iterator[Edit]:
+        text = self.contents[self.json].decode("latin-1")  # a character a byte; what is not ASCII stands in texts only
+        places = members(text, members(text)["accessors"][0])
+        for number in accessors:
+            old, new = (_view(self.document, buffer, number) for buffer in (self.binary, binary))
+            own = members(text, places[number][0])
+            for name, bound in (("min", np.min), ("max", np.max)):
+                spans = members(text, own[name][0]) if name in own else {}
+                before, after = bound(old, axis=0).tolist(), bound(new, axis=0).tolist()
+                for axis, (begin, end) in spans.items():
+                    if before[axis] != after[axis]:
+                        yield self.json.start + begin, self.json.start + end, json.dumps(after[axis]).encode()
 
 
 def _primitives(document: Json) -> Iterator[tuple[Json, np.ndarray]]:
@@ -158,8 +200,14 @@ def _primitives(document: Json) -> Iterator[tuple[Json, np.ndarray]]:
     nodes = document.get("nodes", [])
     scenes = document.get("scenes") or [{"nodes": list(range(len(nodes)))}]
     waiting = [(number, np.eye(4)) for number in reversed(scenes[document.get("scene", 0)].get("nodes", []))]
+    seen = set()
     while waiting:
         number, above = waiting.pop()
+        if number in seen:
+            raise FormatError(
+                f"Node {number} of the scene stands below itself, or below two. Give each a single parent."
+            )
+        seen.add(number)
         node = nodes[number]
         matrix = above @ _matrix(node)
         waiting += [(child, matrix) for child in reversed(node.get("children", []))]
@@ -186,7 +234,7 @@ def _matrix(node: Json) -> np.ndarray:
     return matrix
 
 
-def _view(document: Json, binary: bytearray, number: int) -> np.ndarray:
+def _view(document: Json, binary: bytes | bytearray, number: int) -> np.ndarray:
     """An accessor's numbers, a row an element, in the buffer itself."""
     accessor = document["accessors"][number]
     if "bufferView" not in accessor or "sparse" in accessor:
@@ -197,11 +245,14 @@ def _view(document: Json, binary: bytearray, number: int) -> np.ndarray:
     kind = np.dtype(_COMPONENTS[accessor["componentType"]])
     width = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}[accessor["type"]]
     stride = view.get("byteStride", width * kind.itemsize)
+    if stride < width * kind.itemsize or accessor["count"] < 1:
+        raise ValueError(f"accessor {number} has no elements, or they lie one upon the other")
     begin = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
     return np.ndarray((accessor["count"], width), kind, binary, begin, (stride, kind.itemsize))
 
 
-def _triangles(document: Json, binary: bytearray, primitive: Json, count: int) -> Faces:
+def _corners_of(document: Json, binary: bytes, primitive: Json, count: int) -> np.ndarray:
+    """Of the triangles of a primitive."""
     number = primitive.get("indices")
     corners = np.arange(count) if number is None else _view(document, binary, number).ravel().astype(np.int64)
     mode = primitive.get("mode", _TRIANGLES)

@@ -8,6 +8,7 @@ import numpy as np
 
 from .body import Points
 
+WORD = re.compile(rb"\S+")
 Edit = tuple[int, int, bytes]  # from, to, and what comes there
 
 
@@ -22,16 +23,22 @@ def patched(contents: bytes, edits: Iterable[Edit]) -> bytes:
 
 def numbers(found: list[re.Match[bytes]], group: int, width: int) -> Points:
     """What stands in a group of these matches, a row a match."""
-    return np.array([match.group(group).split() for match in found], dtype="S40").astype(float).reshape(-1, width)
+    rows = [[float(word) for word in match.group(group).split()] for match in found]
+    return np.array(rows, dtype=float).reshape(-1, width)
 
 
-def texts(values: Points) -> list[bytes]:
-    """Each row as nine digits hold it."""
-    return [" ".join(f"{value:.9g}" for value in row).encode() for row in values.tolist()]
+def text(*values: float) -> bytes:
+    """Numbers as nine digits hold them."""
+    return b" ".join(b"%.9g" % value for value in values)
 
 
 def edits(found: list[re.Match[bytes]], group: int, old: Points, new: Points) -> list[Edit]:
     """New numbers in a group of these matches, where they differ from the old."""
-    rows = np.flatnonzero((old != new).any(axis=1))
-    spans = (found[row].span(group) for row in rows)
-    return [(*span, text) for span, text in zip(spans, texts(new[rows]), strict=True)]
+    changed = old != new
+    places = []
+    for row in np.flatnonzero(changed.any(axis=1)):
+        begin = found[row].start(group)
+        for word, other, value in zip(WORD.finditer(found[row][group]), changed[row], new[row].tolist(), strict=True):
+            if other:
+                places.append((begin + word.start(), begin + word.end(), text(value)))
+    return places

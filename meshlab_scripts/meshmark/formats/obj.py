@@ -7,16 +7,18 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import FormatError
 from . import hosted
-from .body import Body, Faces, Points, Skin, write_whole
+from .body import Body, Faces, Points, Skin
 from .corners import Numbers, corners_of, of_vertices, shared
-from .lines import Edit, edits, numbers, patched, texts
+from .lines import Edit, edits, numbers, patched, text
 
 _THREE = rb"(\S+[ \t]+\S+[ \t]+\S+)"
-_VERTEX = re.compile(rb"^[ \t]*v[ \t]+" + _THREE + rb"(?:[ \t]+" + _THREE + rb")?", re.MULTILINE)
+_VERTEX = re.compile(rb"^[ \t]*v[ \t]++" + _THREE + rb"(?:[ \t]+" + _THREE + rb")?", re.MULTILINE)
 _TEXTURE = re.compile(rb"^[ \t]*vt[ \t]+(\S+[ \t]+\S+)[^\n]*\n?", re.MULTILINE)
-_FACE = re.compile(rb"^[ \t]*(?:f[ \t]+([^\n#]*[^\s#])|usemtl[ \t]+([^\n]*))|^[ \t]*(vt?)[ \t]", re.MULTILINE)
+_FACE = re.compile(
+    rb"^[ \t]*(?:f[ \t]++((?:\\\r?\n|[^\n])*+)|usemtl[ \t]+([^\n]*)|(vt?)[ \t])", re.MULTILINE
+)  # a line may go on behind a backslash
+_CORNER = re.compile(rb"[^\s\\]+")
 
 
 def read(path: Path) -> Body:
@@ -24,27 +26,36 @@ def read(path: Path) -> Body:
     contents = path.read_bytes()
     found = list(_VERTEX.finditer(contents))
     own = numbers(found, 1, 3)
-    points, faces = hosted.geometry(path)
-    if len(own) < len(points) or not np.allclose(points, own[: len(points)], rtol=1e-6, atol=0):
-        raise FormatError(f"'{path}' is written in a way that meshmark does not know. Save it anew, and try again.")
-    found, own = found[: len(points)], own[: len(points)]
+    _check_faces(contents)
+    faces = hosted.triangles_over(own, path)
     colors = numbers(found, 2, 3) if all(match.group(2) for match in found) else None
     cloth = _Cloth.read(contents, faces)
 
-    def write(out: Path, moved: Points, skin: Skin) -> None:
+    def written(moved: Points, skin: Skin) -> bytes:
         changes = edits(found, 1, own, moved)
         if colors is not None and skin.colors is not None:
             changes += edits(found, 2, colors, of_vertices(faces, skin.colors[..., :3], colors))
         if cloth and skin.texture is not None:
             changes += cloth.edits(skin.texture)
-        write_whole(out, patched(contents, changes))
+        return patched(contents, changes)
 
     skin = Skin(
         cloth.texture if cloth else None,
         None if colors is None else np.column_stack([colors, np.ones(len(colors))])[faces],
         cloth.picture if cloth else None,
     )
-    return Body(points, faces, "mm", write, skin)
+    return Body(own, faces, "mm", written, skin)
+
+
+def _check_faces(contents: bytes) -> None:
+    """MeshLab looks for what is not there in foreign memory; of what a file has none of, it does not look at all."""
+    kinds = (b"v", b"vt", b"vn")  # as a corner names them
+    counts = [len(re.findall(rb"(?m)^[ \t]*%b[ \t]" % kind, contents)) for kind in kinds]
+    for match in _FACE.finditer(contents):
+        for corner in _CORNER.findall(match[1] or b""):
+            for number, kind, count in zip(corner.split(b"/"), kinds, counts, strict=False):
+                if number and (count or kind == b"v") and not 0 < abs(int(number)) <= count:
+                    raise ValueError(f"a face names {kind.decode()} {int(number)}, which is not there")
 
 
 @dataclass(frozen=True)
@@ -71,7 +82,7 @@ class _Cloth:
         material, vertices, coordinates = 0, 0, 0
         for match in _FACE.finditer(contents):
             if match.group(1) is not None:
-                here = list(re.finditer(rb"\S+", match.group(1)))
+                here = list(_CORNER.finditer(match.group(1)))
                 words += [(match.start(1) + word.start(), word.group()) for word in here]
                 parts = [word.group().split(b"/") for word in here]
                 polygons.append([_counted(part[0], vertices) for part in parts])
@@ -100,9 +111,11 @@ class _Cloth:
         table, place = shared(self.place[has], self.table, new[has])
         if len(table) == len(self.table):
             return edits(self.lines, 1, self.table, table)
-        kept = zip(self.lines, texts(table), (table[: len(self.lines)] != self.table).any(axis=1), strict=False)
-        lines = [_line(line, text) if moved else _line(line, line.group(1)) for line, text, moved in kept]
-        lines += [b"vt %b\n" % text for text in texts(table[len(self.lines) :])]
+        kept, added = table[: len(self.lines)], table[len(self.lines) :]
+        changed = (kept != self.table).any(axis=1)
+        rows = zip(self.lines, kept.tolist(), changed, strict=True)
+        lines = [_line(line, text(*row) if moved else line.group(1)) for line, row, moved in rows]
+        lines += [b"vt %b\n" % text(*row) for row in added.tolist()]
         first, *others = self.lines
         changes = [(*first.span(), b"".join(lines)), *((*line.span(), b"") for line in others)]
         for (begin, word), number in zip(np.array(self.words, dtype=object)[has], place, strict=True):

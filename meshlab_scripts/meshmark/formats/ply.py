@@ -4,7 +4,6 @@ vertices or of faces' corners, are carried.
 """
 
 import itertools
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,8 +12,9 @@ import numpy as np
 
 from ..errors import FormatError
 from . import hosted
-from .body import Body, Faces, Points, Skin, write_whole
+from .body import Body, Faces, Points, Skin
 from .corners import corners_of, of_vertices
+from .lines import WORD, Edit, patched, text
 
 _TYPES = {
     "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1", "short": "i2", "int16": "i2", "ushort": "u2",
@@ -24,6 +24,7 @@ _TYPES = {
 _ORDERS = {"binary_little_endian": "<", "binary_big_endian": ">"}
 _TEXTURES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"))
 _COLORS = ("red", "green", "blue", "alpha")
+_SHORT = {"texcoord": 32, "color": 32}  # lists that MeshLab has little room for
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ class _Header:
     kind: str
     end: int
     vertices: _Element
-    second: _Element  # faces, mostly
+    others: list[_Element]  # faces first, mostly
 
 
 def read(path: Path) -> Body:
@@ -53,32 +54,31 @@ def read(path: Path) -> Body:
     contents = path.read_bytes()
     header = _header(path, contents)
     table = _ascii(contents, header) if header.kind == "ascii" else _table(contents, header)
-    positions = _columns(table, tuple("xyz"))
-    points, faces = hosted.geometry(path)
-    if len(points) != len(positions) or not np.allclose(points, positions, rtol=1e-6, atol=0):
-        raise FormatError(f"'{path}' is written in a way that meshmark does not know. Save it anew, and try again.")
+    _check_lists(contents, header)
+    own = _columns(table, tuple("xyz"))
+    faces = hosted.triangles_over(own, path)
     names = [one.name for one in header.vertices.properties]
     uv = next((pair for pair in _TEXTURES if set(pair) <= set(names)), None)
     rgb = tuple(name for name in _COLORS if name in names)
     full = _full(header, "red") if set(_COLORS[:3]) <= set(rgb) else 0
     corners = None if uv else _Corners.read(contents, header, faces)
 
-    def write(out: Path, moved: Points, skin: Skin) -> None:
+    def written(moved: Points, skin: Skin) -> bytes:
         columns = {"xyz"[axis]: moved[:, axis] for axis in range(3)}
         if uv and skin.texture is not None:
             columns |= zip(uv, of_vertices(faces, skin.texture, _columns(table, uv)).T, strict=True)
         if full and skin.colors is not None:
             shown = of_vertices(faces, skin.colors, _rgba(table, rgb, full)) * full
             columns |= zip(rgb, shown.T if full == 1 else np.round(shown).T, strict=False)
-        rest = _written_ascii if header.kind == "ascii" else _written_table
-        written = bytearray(contents[: header.end] + rest(contents, header, table, columns))
+        edits = _ascii_edits if header.kind == "ascii" else _table_edits
+        changes = list(edits(contents, header, table, columns))
         if corners and skin.texture is not None:
-            written[len(written) - len(contents) + corners.begin :] = corners.written(contents, skin.texture)
-        write_whole(out, bytes(written))
+            changes += corners.edits(skin.texture)
+        return patched(contents, changes)
 
     texture = _columns(table, uv)[faces] if uv else corners.texture if corners else None
     colors = _rgba(table, rgb, full)[faces] if full else None
-    return Body(points, faces, "mm", write, Skin(texture, colors, corners.picture if corners else None))
+    return Body(own, faces, "mm", written, Skin(texture, colors, corners.picture if corners else None))
 
 
 def _header(path: Path, contents: bytes) -> _Header:
@@ -96,11 +96,13 @@ def _header(path: Path, contents: bytes) -> _Header:
             elements[-1].properties.append(_Property(words[4], _TYPES[words[3]], _TYPES[words[2]]))
         elif words[:1] == ["property"] and elements:
             elements[-1].properties.append(_Property(words[2], _TYPES[words[1]]))
-    vertices, second, *_ = [*elements, *[_Element("", 0, [])] * 2]
+    if not all(0 <= one.count <= len(contents) for one in elements):
+        raise ValueError("it promises more than it has")
+    vertices, *others = elements or [_Element("", 0, [])]
     names = {one.name for one in vertices.properties}
     if vertices.name != "vertex" or any(one.count for one in vertices.properties) or not {"x", "y", "z"} <= names:
         raise FormatError(f"'{path}' does not begin with plain vertices. Save it anew, and try again.")
-    return _Header(kind, end, vertices, second)
+    return _Header(kind, end, vertices, others)
 
 
 def _columns(table: np.ndarray, names: tuple[str, ...]) -> Points:
@@ -124,37 +126,62 @@ def _table(contents: bytes, header: _Header) -> np.ndarray:
     return np.frombuffer(contents, rows, header.vertices.count, header.end)
 
 
-def _written_table(contents: bytes, header: _Header, table: np.ndarray, columns: dict[str, np.ndarray]) -> bytes:
-    table = table.copy()
+def _table_edits(contents: bytes, header: _Header, table: np.ndarray, columns: dict[str, np.ndarray]) -> Iterator[Edit]:
+    new = table.copy()
     for name, values in columns.items():
-        table[name] = values
-    return table.tobytes() + contents[header.end + table.nbytes :]
+        changed = table[name] != values
+        new[name][changed] = values[changed]
+    yield header.end, header.end + table.nbytes, new.tobytes()
 
 
-def _ascii(contents: bytes, header: _Header) -> dict[str, list[bytes]]:
-    lines = contents[header.end :].split(b"\n", header.vertices.count)[: header.vertices.count]
-    columns = list(zip(*(line.split() for line in lines), strict=False))
-    return {one.name: list(column) for one, column in zip(header.vertices.properties, columns, strict=False)}
+def _ascii(contents: bytes, header: _Header) -> dict[str, np.ndarray]:
+    lines = _vertex_lines(contents, header)
+    rows = np.array([[float(word) for word in line.split()] for line in lines])
+    columns = rows.reshape(header.vertices.count, len(header.vertices.properties)).T
+    return {one.name: column for one, column in zip(header.vertices.properties, columns, strict=True)}
 
 
-def _written_ascii(
-    contents: bytes, header: _Header, table: dict[str, list[bytes]], columns: dict[str, np.ndarray]
-) -> bytes:
-    *lines, rest = contents[header.end :].split(b"\n", header.vertices.count)
-    names = [one.name for one in header.vertices.properties]
-    rows = [line.split() for line in lines]
-    for name, values in columns.items():
-        at = names.index(name)
-        for row in np.flatnonzero(np.array(table[name]).astype(float) != values):
-            rows[row][at] = f"{values[row]:.9g}".encode()
-    return b"\n".join([*(b" ".join(row) for row in rows), rest])
+def _ascii_edits(
+    contents: bytes, header: _Header, table: dict[str, np.ndarray], columns: dict[str, np.ndarray]
+) -> Iterator[Edit]:
+    lines = _vertex_lines(contents, header)
+    begins = header.end + np.cumsum([0, *(len(line) + 1 for line in lines)])
+    for at, name in enumerate(table):
+        values = columns.get(name, table[name])
+        for row in np.flatnonzero(table[name] != values):
+            begin, end = next(itertools.islice(WORD.finditer(lines[row]), at, None)).span()
+            yield begins[row] + begin, begins[row] + end, text(values[row])
+
+
+def _vertex_lines(contents: bytes, header: _Header) -> list[bytes]:
+    return contents[header.end :].split(b"\n", header.vertices.count)[: header.vertices.count]
+
+
+def _begin_of_others(contents: bytes, header: _Header) -> int:
+    if header.kind == "ascii":
+        return header.end + sum(len(line) + 1 for line in _vertex_lines(contents, header))
+    return header.end + _table(contents, header).nbytes
+
+
+def _check_lists(contents: bytes, header: _Header) -> None:
+    """MeshLab takes lists of any length into places of some; strips, it takes for granted that their vertices exist."""
+    lists = [one for element in header.others for one in element.properties if one.count]
+    if header.kind != "ascii" and all(one.count == "u1" and one.name not in _SHORT for one in lists):
+        return  # as nearly all binary files are
+    begin, order = _begin_of_others(contents, header), _ORDERS.get(header.kind, "")
+    for element, row in _rows(contents, header.others, begin, order):
+        for name, values in row.items():
+            if element.name == "tristrips":
+                if not all(-1 <= value < header.vertices.count for value, _ in values):
+                    raise ValueError("a strip names a vertex that is not there")
+            elif len(values) > _SHORT.get(name, 255):
+                raise ValueError(f"a list '{name}' has {len(values)} values")
 
 
 @dataclass(frozen=True)
 class _Corners:
     """Texture coordinates in the element of faces: where in the file each corner's two numbers stand."""
 
-    begin: int  # of the element
     spans: list[list[tuple[int, int]]]  # of each corner in the file
     kind: str  # numpy's; empty for ASCII
     values: Points
@@ -164,13 +191,13 @@ class _Corners:
     @classmethod
     def read(cls, contents: bytes, header: _Header, faces: Faces) -> "_Corners | None":
         """None where faces have none."""
-        kinds = {one.name: one.kind for one in header.second.properties}
-        if header.second.name != "face" or "texcoord" not in kinds:
+        element = next(iter(header.others), None)
+        kinds = {one.name: one.kind for one in element.properties} if element else {}
+        if not element or element.name != "face" or "texcoord" not in kinds:
             return None
         order = _ORDERS.get(header.kind, "")
-        begin = header.end + (_table(contents, header).nbytes if order else len(_vertex_lines(contents, header)))
         polygons, spans, values, pictures = [], [], [], []
-        for row in _rows(contents, header.second, begin, order):
+        for _, row in _rows(contents, [element], _begin_of_others(contents, header), order):
             polygon = row.get("vertex_indices") or row["vertex_index"]
             polygons.append([int(value) for value, _ in polygon])
             texcoord = row["texcoord"]
@@ -183,56 +210,53 @@ class _Corners:
         corner = corners_of(polygons, faces)
         picture = np.array(pictures, dtype=np.int32)[corner[:, 0]] if "texnumber" in kinds else None
         kind = order + kinds["texcoord"] if order else ""
-        return cls(begin, spans, kind, np.array(values, dtype=float).reshape(-1, 2), corner, picture)
+        return cls(spans, kind, np.array(values, dtype=float).reshape(-1, 2), corner, picture)
 
     @property
     def texture(self) -> Points:
         """Of the triangles' corners."""
         return self.values[self.corner]
 
-    def written(self, contents: bytes, texture: Points) -> bytes:
-        """From the element of faces on."""
+    def edits(self, texture: Points) -> Iterator[Edit]:
+        """Of the numbers that differ."""
         new = self.values.copy()
         new[self.corner] = texture
-        pieces, end = [], self.begin
         for row, axis in zip(*np.nonzero(new != self.values), strict=True):
-            begin, after = self.spans[row][axis]
             value = new[row, axis]
-            text = np.array(value).astype(self.kind).tobytes() if self.kind else f"{value:.9g}".encode()
-            pieces += [contents[end:begin], text]
-            end = after
-        return b"".join([*pieces, contents[end:]])
-
-
-def _vertex_lines(contents: bytes, header: _Header) -> bytes:
-    rest = contents[header.end :]
-    return rest[: len(rest) - len(rest.split(b"\n", header.vertices.count)[-1])]
+            yield *self.spans[row][axis], np.array(value).astype(self.kind).tobytes() if self.kind else text(value)
 
 
 _Values = list[tuple[float, tuple[int, int]]]  # and where they stand
-_WORD = re.compile(rb"\S+")
 
 
-def _rows(contents: bytes, element: _Element, begin: int, order: str) -> Iterator[dict[str, _Values]]:
-    """The rows of an element that has lists, by the name of the property."""
+def _rows(
+    contents: bytes, elements: list[_Element], begin: int, order: str
+) -> Iterator[tuple[_Element, dict[str, _Values]]]:
+    """The rows of elements that follow each other, by the name of the property."""
     take = _binary if order else _words
-    for _ in range(element.count):
-        row = {}
-        for one in element.properties:
-            count = 1
-            if one.count:
-                ((count, (_, begin)),) = take(contents, begin, order + one.count, 1)
-            row[one.name] = take(contents, begin, order + one.kind, int(count))
-            begin = row[one.name][-1][1][1] if row[one.name] else begin
-        yield row
+    for element in elements:
+        for _ in range(element.count):
+            row = {}
+            for one in element.properties:
+                count = 1
+                if one.count:
+                    ((length, (_, begin)),) = take(contents, begin, order + one.count, 1)
+                    count = int(length)
+                row[one.name] = take(contents, begin, order + one.kind, count)
+                begin = row[one.name][-1][1][1] if row[one.name] else begin
+            yield element, row
 
 
 def _binary(contents: bytes, begin: int, kind: str, count: int) -> _Values:
+    if count < 0:
+        raise ValueError(f"a list has {count} values")
     values = np.frombuffer(contents, kind, count, begin)
     starts = range(begin, begin + values.nbytes, values.itemsize)
     return [(value, (start, start + values.itemsize)) for value, start in zip(values.tolist(), starts, strict=True)]
 
 
 def _words(contents: bytes, begin: int, kind: str, count: int) -> _Values:
-    found = itertools.islice(_WORD.finditer(contents, begin), count)
+    found = list(itertools.islice(WORD.finditer(contents, begin), count))
+    if len(found) < count:
+        raise ValueError("it ends too early")
     return [(float(word.group()), word.span()) for word in found]

@@ -7,15 +7,14 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import FormatError
-from .body import Body, Points, Skin, weld, write_whole
+from .body import Body, Points, Skin, weld
+from .lines import edits, numbers, patched
 
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER = 84
-_NUMBER = rb"[-+0-9.eE]+"
+_THREE = rb"\s+(\S+\s+\S+\s+\S+)"
 _ASCII = re.compile(
-    rb"(facet\s+normal\s+)(\S+\s+\S+\s+\S+)(\s+outer\s+loop\s+)"
-    + rb"(\s+)".join([rb"vertex\s+(%b)\s+(%b)\s+(%b)" % (_NUMBER, _NUMBER, _NUMBER)] * 3),
-    re.IGNORECASE,
+    rb"facet\s+normal%b\s+outer\s+loop\s+" % _THREE + rb"\s+".join([rb"vertex%b" % _THREE] * 3), re.IGNORECASE
 )
 
 
@@ -31,50 +30,45 @@ def read(path: Path) -> Body:
 
 
 def _binary(contents: bytes, count: int) -> Body:
-    triangles = np.frombuffer(contents, _TRIANGLE, count, _HEADER)
-    points, number = weld(triangles["corners"].reshape(-1, 3).astype(float))
+    facets = np.frombuffer(contents, _TRIANGLE, count, _HEADER)
+    points, number = weld(facets["corners"].reshape(-1, 3).astype(float))
+    faces = number.reshape(-1, 3)
 
-    def write(out: Path, moved: Points, skin: Skin) -> None:
-        changed = triangles.copy()
-        changed["corners"] = moved[number].reshape(-1, 3, 3)
-        changed["normal"] = _normals(changed["corners"].astype(float), triangles["normal"])
-        rest = contents[_HEADER + count * _TRIANGLE.itemsize :]
-        write_whole(out, contents[:_HEADER] + changed.tobytes() + rest)
+    def written(moved: Points, skin: Skin) -> bytes:
+        changed = facets.copy()
+        corner = (moved != points).any(axis=1)[faces]
+        changed["corners"][corner] = moved[faces[corner]]
+        turned, normals = _normals(changed["corners"].astype(float), corner)
+        changed["normal"][turned] = normals
+        return contents[:_HEADER] + changed.tobytes() + contents[_HEADER + facets.nbytes :]
 
-    return Body(points, number.reshape(-1, 3).astype(np.int32), "mm", write)
+    return Body(points, faces.astype(np.int32), "mm", written)
 
 
 def _ascii(path: Path, contents: bytes) -> Body:
     found = list(_ASCII.finditer(contents))
     if not found:
         raise FormatError(f"'{path}' has no triangles.")
-    corners = np.array([[match.group(k) for k in (4, 5, 6, 8, 9, 10, 12, 13, 14)] for match in found], dtype="S32")
-    points, number = weld(corners.astype(float).reshape(-1, 3))
+    corners = np.stack([numbers(found, group, 3) for group in (2, 3, 4)], axis=1)
+    points, number = weld(corners.reshape(-1, 3))
+    faces = number.reshape(-1, 3)
 
-    def write(out: Path, moved: Points, skin: Skin) -> None:
-        placed = moved[number].reshape(-1, 3, 3)
-        old = np.array([match.group(2).split() for match in found], dtype="S32").astype(float)
-        new = zip(_normals(placed, old), placed, strict=True)
+    def written(moved: Points, skin: Skin) -> bytes:
+        placed = moved[faces]
+        turned, normals = _normals(placed, (placed != corners).any(axis=2))
+        whatever = np.full_like(normals, np.nan)  # programs write words there that are no numbers
+        changes = edits([found[row] for row in turned], 1, whatever, normals)
+        for k in range(3):
+            changes += edits(found, 2 + k, corners[:, k], placed[:, k])
+        return patched(contents, changes)
 
-        def line(match: re.Match[bytes]) -> bytes:
-            normal, (a, b, c) = next(new)
-            first, second = match.group(7), match.group(11)
-            return b"".join(
-                [match.group(1), _text(normal), match.group(3), b"vertex ", _text(a), first, b"vertex ", _text(b),
-                 second, b"vertex ", _text(c)]
-            )  # fmt: skip
-
-        write_whole(out, _ASCII.sub(line, contents))
-
-    return Body(points, number.reshape(-1, 3).astype(np.int32), "mm", write)
+    return Body(points, faces.astype(np.int32), "mm", written)
 
 
-def _text(numbers: Points) -> bytes:
-    return " ".join(f"{value:.9g}" for value in numbers).encode()
-
-
-def _normals(corners: Points, old: Points) -> Points:
-    """Of the triangles; that of the file where a triangle has none."""
-    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    length = np.linalg.norm(across, axis=1, keepdims=True)
-    return np.where(length > 0, across / np.where(length > 0, length, 1), old)
+def _normals(corners: Points, moved: np.ndarray) -> tuple[np.ndarray, Points]:
+    """The numbers of the facets with corners that have moved, and their normals; that of no area keeps the file's."""
+    facets = np.flatnonzero(moved.any(axis=1))
+    a, b, c = corners[facets].transpose(1, 0, 2)
+    across = np.cross(b - a, c - a)
+    length = np.linalg.norm(across, axis=1)
+    return facets[length > 0], across[length > 0] / length[length > 0, None]

@@ -5,6 +5,7 @@
 Materials and Properties Extension 1.2 (texture2dgroup).
 """
 
+import io
 import re
 import zipfile
 from collections.abc import Iterator
@@ -15,7 +16,9 @@ from xml.etree import ElementTree
 import numpy as np
 
 from ..errors import FormatError
-from .body import Body, Points, Skin, write_whole
+from .body import Body, Corners, Faces, Points, Skin, before_matrix, check_places, triangles
+from .lines import Edit, patched, text
+from .tags import tags, with_values
 from .threemf_texture import Coordinates
 
 _CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
@@ -23,7 +26,7 @@ _PATH = "{http://schemas.microsoft.com/3dmanufacturing/production/2015/06}path"
 _RELATIONS = "_rels/.rels"
 _MODEL = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
 _VERTEX = re.compile(rb"<(?:\w+:)?vertex\s[^>]*>")
-_AXES = [re.compile(rb"(\s%b\s*=\s*)(\"[^\"]*\"|'[^']*')" % axis) for axis in (b"x", b"y", b"z")]
+_SMALL, _DENSE = 1 << 24, 200  # bytes that any entry may have, and how much others may be packed
 
 
 @dataclass(frozen=True)
@@ -33,7 +36,7 @@ class _Object:
     first: int
     first_triangle: int
     points: Points
-    faces: np.ndarray
+    faces: Faces
 
 
 @dataclass(frozen=True)
@@ -50,6 +53,7 @@ class _Package:
     def __init__(self, path: Path) -> None:
         try:
             with zipfile.ZipFile(path) as archive:
+                _check_entries(archive)
                 self.texts = {name: archive.read(name) for name in archive.namelist() if name.endswith(".model")}
                 relations = ElementTree.fromstring(archive.read(_RELATIONS))
         except (zipfile.BadZipFile, KeyError) as error:
@@ -61,36 +65,53 @@ class _Package:
         self.main = targets[0]
         self.objects = {name: self._objects(root) for name, root in self.roots.items()}
         self.coordinates = {name: Coordinates(root) for name, root in self.roots.items()}
+        self.places = 0  # that were asked for
 
     @staticmethod
     def _objects(root: ElementTree.Element) -> dict[str, ElementTree.Element | _Object]:
         """By id: a mesh, or the element with its components."""
         found: dict[str, ElementTree.Element | _Object] = {}
-        count, triangles = 0, 0
+        count, of_triangles = 0, 0
         for one in root.iter(f"{_CORE}object"):
             mesh = one.find(f"{_CORE}mesh")
             if mesh is None:
                 found[one.get("id", "")] = one
                 continue
-            points = [[float(v.get(axis, "0")) for axis in "xyz"] for v in mesh.iter(f"{_CORE}vertex")]
-            faces = [[int(t.get(corner, "0")) for corner in ("v1", "v2", "v3")] for t in mesh.iter(f"{_CORE}triangle")]
+            points = [[float(v.attrib[axis]) for axis in "xyz"] for v in mesh.iter(f"{_CORE}vertex")]
+            faces = [[int(t.attrib[corner]) for corner in ("v1", "v2", "v3")] for t in mesh.iter(f"{_CORE}triangle")]
             found[one.get("id", "")] = _Object(
-                count, triangles, np.array(points, dtype=float).reshape(-1, 3),
-                np.array(faces, dtype=np.int32).reshape(-1, 3),
-            )  # fmt: skip
+                count, of_triangles, np.array(points, dtype=float).reshape(-1, 3), triangles(faces, len(points))
+            )
             count += len(points)
-            triangles += len(faces)
+            of_triangles += len(faces)
         return found
 
-    def placed(self, part: str, number: str, matrix: np.ndarray) -> Iterator[tuple[str, _Object, np.ndarray]]:
+    def placed(
+        self, part: str, number: str, matrix: np.ndarray, above: tuple[tuple[str, str], ...] = ()
+    ) -> Iterator[tuple[str, _Object, np.ndarray]]:
         """The meshes of an object, each with its matrix."""
+        if (part, number) in above:
+            raise FormatError(f"Object {number} of '{part}' is a component of itself. Take that component away.")
+        self.places += 1
+        check_places(self.places)
         one = self.objects[part][number]
         if isinstance(one, _Object):
             yield part, one, matrix
             return
         for component in one.iter(f"{_CORE}component"):
             other = component.get(_PATH, part).lstrip("/")
-            yield from self.placed(other, component.get("objectid", ""), _matrix(component) @ matrix)
+            where = _matrix(component) @ matrix
+            yield from self.placed(other, component.get("objectid", ""), where, (*above, (part, number)))
+
+
+def _check_entries(archive: zipfile.ZipFile) -> None:
+    """A few bytes can unpack to more than any memory holds."""
+    for entry in archive.infolist():
+        if entry.file_size > max(_SMALL, _DENSE * entry.compress_size):
+            raise ValueError(f"'{entry.filename}' in it unpacks to {entry.file_size:,} bytes")
+    damaged = archive.testzip()
+    if damaged:
+        raise ValueError(f"'{damaged}' in it is damaged")
 
 
 def read(path: Path) -> Body:
@@ -98,7 +119,7 @@ def read(path: Path) -> Body:
     package = _Package(path)
     main = package.roots[package.main]
     placed: list[_Placed] = []
-    points, faces, count = [], [], 0
+    points, faces, count, shown = [], [], 0, 0
     for item in main.iter(f"{_CORE}item"):
         part = item.get(_PATH, package.main).lstrip("/")
         for where, mesh, matrix in package.placed(part, item.get("objectid", ""), _matrix(item)):
@@ -106,14 +127,25 @@ def read(path: Path) -> Body:
             points.append(mesh.points @ matrix[:3, :3] + matrix[3, :3])
             faces.append(mesh.faces + count)
             count += len(mesh.points)
+            shown += len(mesh.faces)
+            check_places(len(placed), shown)
     if not count:
         raise FormatError(f"'{path}' builds nothing.")
 
-    def write(out: Path, moved: Points, skin: Skin) -> None:
-        _write(path, out, package, placed, moved, skin)
+    own = np.concatenate(points)
+
+    def written(moved: Points, skin: Skin) -> bytes:
+        if len({(one.part, one.mesh.first) for one in placed}) < len(placed):
+            raise FormatError(
+                f"'{path}' builds one object several times. Make the copies real ones first, or mark one."
+            )
+        texts = _moved(package, placed, own, moved)
+        if skin.texture is not None:
+            texts |= _shown(package, placed, skin.texture, texts)
+        return _packed(path, texts)
 
     unit = main.get("unit", "millimeter")
-    return Body(np.concatenate(points), np.concatenate(faces).astype(np.int32), unit, write, _skin(package, placed))
+    return Body(own, np.concatenate(faces).astype(np.int32), unit, written, _skin(package, placed))
 
 
 def _skin(package: _Package, placed: list[_Placed]) -> Skin:
@@ -141,46 +173,40 @@ def _matrix(element: ElementTree.Element) -> np.ndarray:
     return matrix
 
 
-def _write(path: Path, out: Path, package: _Package, placed: list[_Placed], moved: Points, skin: Skin) -> None:
-    if len({(one.part, one.mesh.first) for one in placed}) < len(placed):
-        raise FormatError(f"'{path}' builds one object several times. Make the copies real ones first, or mark one.")
+def _moved(package: _Package, placed: list[_Placed], own: Points, moved: Points) -> dict[str, bytes]:
+    """The parts with new coordinates of the vertices that have moved."""
     texts = dict(package.texts)
     for part in {one.part for one in placed}:
-        here = [one for one in placed if one.part == part]
-        local: dict[int, Points] = {}
-        for one in here:
-            points = moved[one.begin : one.begin + len(one.mesh.points)] - one.matrix[3, :3]
-            local[one.mesh.first] = np.linalg.solve(one.matrix[:3, :3].T, points.T).T
-        new = {first + number: point for first, points in local.items() for number, point in enumerate(points)}
-        texts[part] = _rewritten(texts[part], new)
-    if skin.texture is not None:
-        ends = np.cumsum([len(one.mesh.faces) for one in placed])
-        of_placed = np.split(skin.texture, ends[:-1])
-        for part, coordinates in package.coordinates.items():
-            texture = coordinates.texture.copy()
-            for one, new in zip(placed, of_placed, strict=True):
-                if one.part == part:
-                    texture[one.mesh.first_triangle : one.mesh.first_triangle + len(new)] = new
-            texts[part] = coordinates.written(texts[part], texture)
-    part_file = out.with_name(f".{out.name}.zip.part")
-    try:
-        with zipfile.ZipFile(path) as old, zipfile.ZipFile(part_file, "w") as archive:
-            for entry in old.infolist():
-                contents = texts.get(entry.filename) if entry.filename in texts else old.read(entry)
-                archive.writestr(entry, contents, entry.compress_type)
-        write_whole(out, part_file.read_bytes())
-    finally:
-        part_file.unlink(missing_ok=True)
+        found = tags(_VERTEX, texts[part], sum(1 for _ in package.roots[part].iter(f"{_CORE}vertex")))
+        changes: list[Edit] = []
+        for one in placed:
+            if one.part != part:
+                continue
+            before, after = (points[one.begin : one.begin + len(one.mesh.points)] for points in (own, moved))
+            rows = np.flatnonzero((after != before).any(axis=1))
+            local = before_matrix(after[rows] - one.matrix[3, :3], one.matrix[:3, :3].T) if len(rows) else after[:0]
+            for row, (x, y, z) in zip(rows, local.tolist(), strict=True):
+                tag = found[one.mesh.first + row]
+                changes.append((*tag.span(), with_values(tag.group(), x=text(x), y=text(y), z=text(z))))
+        texts[part] = patched(texts[part], changes)
+    return texts
 
 
-def _rewritten(text: bytes, points: dict[int, Points]) -> bytes:
-    """The text with new coordinates for the vertices of these numbers."""
-    pieces, end = [], 0
-    for number, match in enumerate(_VERTEX.finditer(text)):
-        if number in points:
-            tag = match.group()
-            for axis, value in zip(_AXES, points[number], strict=True):
-                tag = axis.sub(rb'\g<1>"%b"' % f"{value:.9g}".encode(), tag, count=1)
-            pieces += [text[end : match.start()], tag]
-            end = match.end()
-    return b"".join([*pieces, text[end:]])
+def _shown(package: _Package, placed: list[_Placed], texture: Corners, texts: dict[str, bytes]) -> dict[str, bytes]:
+    """The parts with other texture coordinates."""
+    shown = {part: coordinates.texture for part, coordinates in package.coordinates.items()}
+    ends = np.cumsum([len(one.mesh.faces) for one in placed])
+    for one, new in zip(placed, np.split(texture, ends[:-1]), strict=True):
+        shown[one.part][one.mesh.first_triangle : one.mesh.first_triangle + len(new)] = new
+    return {part: package.coordinates[part].written(texts[part], new) for part, new in shown.items()}
+
+
+def _packed(path: Path, texts: dict[str, bytes]) -> bytes:
+    """The package with these texts, and all other entries as they are."""
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(path) as old, zipfile.ZipFile(buffer, "w") as archive:
+        archive.comment = old.comment
+        for entry in old.infolist():
+            contents = texts[entry.filename] if entry.filename in texts else old.read(entry)
+            archive.writestr(entry, contents, entry.compress_type)
+    return buffer.getvalue()

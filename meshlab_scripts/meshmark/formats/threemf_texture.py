@@ -10,9 +10,10 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from .body import Corners
+from .body import Corners, triangles
 from .corners import shared
-from .lines import Edit, patched
+from .lines import Edit, patched, text
+from .tags import tags, with_values
 
 _CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
 _MATERIAL = "{http://schemas.microsoft.com/3dmanufacturing/material/2015/02}"
@@ -28,7 +29,7 @@ class Coordinates:
         numbers = {}
         for one in root.iter(f"{_MATERIAL}texture2dgroup"):
             numbers[one.get("id")] = len(self.tables)
-            rows = [(float(c.get("u", "0")), float(c.get("v", "0"))) for c in one.iter(f"{_MATERIAL}tex2coord")]
+            rows = [(float(c.attrib["u"]), float(c.attrib["v"])) for c in one.iter(f"{_MATERIAL}tex2coord")]
             self.tables.append(np.array(rows, dtype=float).reshape(-1, 2))
         groups, places = [], []
         for one in root.iter(f"{_CORE}object"):
@@ -45,42 +46,31 @@ class Coordinates:
         """Of all triangles; 0 where there is none."""
         texture = np.zeros((len(self.group), 3, 2))
         for number, table in enumerate(self.tables):
-            texture[self.group == number] = table[self.places[self.group == number]]
+            here = self.group == number
+            texture[here] = table[triangles(self.places[here], len(table))]
         return texture
 
-    def written(self, text: bytes, texture: Corners) -> bytes:
+    def written(self, part: bytes, texture: Corners) -> bytes:
         """The text with these coordinates: in place, and behind the last of a group where triangles shared one."""
-        return patched(text, self._edits(text, texture))
+        return patched(part, self._edits(part, texture)) if self.tables else part
 
-    def _edits(self, text: bytes, texture: Corners) -> Iterator[Edit]:
-        tags = list(_COORDINATE.finditer(text))
-        triangles = list(_TRIANGLE.finditer(text))
+    def _edits(self, part: bytes, texture: Corners) -> Iterator[Edit]:
+        coordinates = tags(_COORDINATE, part, sum(map(len, self.tables)))
+        of_triangles = tags(_TRIANGLE, part, len(self.group))
         first = 0
         for number, old in enumerate(self.tables):
             here = np.flatnonzero(self.group == number)
             new, places = shared(self.places[here].ravel(), old, texture[here].reshape(-1, 2))
             for row in np.flatnonzero((new[: len(old)] != old).any(axis=1)):
-                tag = tags[first + row]
-                yield *tag.span(), _with(tag.group(), u=_text(new[row, 0]), v=_text(new[row, 1]))
+                tag = coordinates[first + row]
+                yield *tag.span(), with_values(tag.group(), u=text(new[row, 0]), v=text(new[row, 1]))
             first += len(old)
             if len(new) > len(old):
-                last = tags[first - 1]
-                added = (_with(last.group(), u=_text(u), v=_text(v)) for u, v in new[len(old) :].tolist())
+                last = coordinates[first - 1]
+                added = (with_values(last.group(), u=text(u), v=text(v)) for u, v in new[len(old) :].tolist())
                 yield last.end(), last.end(), b"".join(added)
             moved = places.reshape(-1, 3)
             for row in np.flatnonzero((moved != self.places[here]).any(axis=1)):
-                tag = triangles[here[row]]
-                p1, p2, p3 = (str(place) for place in moved[row])
-                yield *tag.span(), _with(tag.group(), p1=p1, p2=p2, p3=p3)
-
-
-def _text(value: float) -> str:
-    return f"{value:.9g}"
-
-
-def _with(tag: bytes, **values: str) -> bytes:
-    """A tag with other values of some attributes."""
-    for name, value in values.items():
-        attribute = re.compile(rb"(\s%b\s*=\s*)(\"[^\"]*\"|'[^']*')" % name.encode())
-        tag = attribute.sub(rb'\g<1>"%b"' % value.encode(), tag, count=1)
-    return tag
+                tag = of_triangles[here[row]]
+                p1, p2, p3 = (b"%d" % place for place in moved[row])
+                yield *tag.span(), with_values(tag.group(), p1=p1, p2=p2, p3=p3)
