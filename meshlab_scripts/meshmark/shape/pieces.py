@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..formats import Body, weld
+from ..formats import Body
 from .signature import signature
 
 MOST = 16  # pieces that are looked at, the largest
@@ -31,8 +31,7 @@ def pieces(body: Body) -> list[Piece]:
     from scipy.sparse import coo_array  # takes longer to load than most commands need
     from scipy.sparse.csgraph import connected_components
 
-    points, number = weld(body.points)
-    faces = number[body.faces].astype(np.int32)
+    points, faces = body.welded()
     whole = Piece("the whole file", points, faces)
     ends = faces[:, [0, 1, 1, 2]].reshape(-1, 2).T
     graph = coo_array((np.ones(ends.shape[1], dtype=np.int8), ends), shape=(len(points), len(points)))

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import FormatError
-from ..formats import Body, weld
+from ..formats import Body
 
 Array = NDArray[np.float64]
 Faces = NDArray[np.int32]
@@ -57,8 +57,7 @@ def signature(points: Array, faces: Faces) -> Array:
 
 def body_signature(body: Body) -> Array:
     """The same of a file's body."""
-    points, number = weld(body.points)
-    return signature(points, number[body.faces].astype(np.int32))
+    return signature(*body.welded())
 
 
 def _solid(corners: Array, origin: Array, area: float) -> tuple[float, Array, Array]:
