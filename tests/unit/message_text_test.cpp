@@ -30,6 +30,7 @@ TEST(MessageText, RefusesWhatIsNoId)
     EXPECT_THROW((void)read_message(""), Error);
     EXPECT_THROW((void)read_message("hex:5G"), Error);
     EXPECT_THROW((void)read_message("bits:012"), Error);
+    EXPECT_THROW((void)read_message("file:messages.txt"), Error);
 }
 
 TEST(MessageText, ShownAsItWasWritten)
@@ -43,6 +44,7 @@ TEST(MessageText, ShownAsItWasWritten)
     // Bytes that would be read as something else.
     EXPECT_EQ(show_message(read_message("hex:69643a37").bits, Kind::Text), "hex:69643a37");
     EXPECT_EQ(read_message(show_message(read_message("hex:69643a37").bits, Kind::Text)).kind, Kind::Hex);
+    EXPECT_EQ(show_message(read_message("hex:66696c653a37").bits, Kind::Text), "hex:66696c653a37");
 }
 
 TEST(MessageText, SaysWhatItNeeds)

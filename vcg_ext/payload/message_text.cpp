@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t most_candidates = 1'000'000;
 constexpr std::string_view id_prefix = "id:";
+constexpr std::string_view list_prefix = "file:"; // of candidates, which the doors read
 
 Bits read_id(std::string_view digits)
 {
@@ -38,6 +39,9 @@ std::string counted(std::size_t count, const std::string& thing)
 
 Message read_message(std::string_view text)
 {
+    if (starts_with(text, list_prefix))
+        throw Error("A message does not begin with 'file:', which names a list of messages that detection looks for. "
+                    "Give the message itself.");
     if (starts_with(text, id_prefix))
         return {Kind::Id, read_id(text.substr(id_prefix.size())), std::string(text)};
     const Kind kind = starts_with(text, "hex:") ? Kind::Hex : starts_with(text, "bits:") ? Kind::Bits : Kind::Text;
@@ -55,7 +59,7 @@ std::string show_message(const Bits& bits, Kind kind)
         return std::string(id_prefix) + std::to_string(number);
     }
     std::string text = format_message(bits);
-    if (!starts_with(text, id_prefix))
+    if (!starts_with(text, id_prefix) && !starts_with(text, list_prefix))
         return text;
     static constexpr char digits[] = "0123456789abcdef";
     std::string hex = "hex:";

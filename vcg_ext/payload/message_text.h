@@ -27,7 +27,7 @@ struct Message {
 /// One letter can be spelled in several ways in Unicode: the host brings a text into NFC before it comes here (Qt:
 /// `QString::normalized`), at embedding and at detection.
 ///
-/// \throw Error where it is empty, or has another digit than it may
+/// \throw Error where it is empty, has another digit than it may, or begins with `file:`
 [[nodiscard]] Message read_message(std::string_view text);
 
 /// What read_message() takes for these bits: `id:17` of 32 bits; `bits:0110...`; else the text without the zero bytes
