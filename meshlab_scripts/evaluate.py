@@ -22,6 +22,7 @@ from evaluation.results import NoResults
 from evaluation.schedule import run_missing
 from evaluation.store import Store
 from meshmark import plugin as loaded
+from meshmark.alone import alone
 from meshmark.errors import MeshmarkError
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -100,7 +101,10 @@ def main(
     try:
         loaded.load(site.plugin)
         site.cache.mkdir(parents=True, exist_ok=True)
-        with closing(Store(work / "results.sqlite")) as store:
+        with (
+            alone(work / ".lock", f"in '{work}'"),  # two would make the same marks, and one of them for nothing
+            closing(Store(work / "results.sqlite")) as store,
+        ):
             if retry:
                 store.forget_failed()
             run = Run(site, store, work, keys, mesh, scheduler, report_only)

@@ -1,16 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the jobs on all cores, or on a user's cluster (dask.distributed), and keeps the ledger."""
 
-import fcntl
 import os
 import secrets
 import tempfile
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from ..alone import alone
 from ..errors import MeshmarkError
 from ..settings import Settings
 from .ledger import Copy, Ledger
@@ -64,9 +63,9 @@ def make_copies(
         raise MeshmarkError("A catalogue needs its key in a file or in an environment variable: workers read it there.")
     began = time.perf_counter()
     order, ledger_file = _absolute(order), ledger_file.resolve()
-    with (
-        _alone(order.copies / LOCK, f"in '{order.copies}'"),
-        _alone(ledger_file.with_name(f".{ledger_file.name}.lock"), f"with the ledger '{ledger_file}'"),
+    with (  # two runs at once would take each other's unfinished files away
+        alone(order.copies / LOCK, f"in '{order.copies}'"),
+        alone(ledger_file.with_name(f".{ledger_file.name}.lock"), f"with the ledger '{ledger_file}'"),
         Ledger(ledger_file, "write") as ledger,
     ):
         ledger.begin(order.key, order.copies)
@@ -148,15 +147,3 @@ def _enter(job: Job, made: Made, ledger: Ledger, outcome: Outcome) -> None:
 
 def _absolute(order: Order) -> Order:
     return replace(order, models=order.models.resolve(), copies=order.copies.resolve())
-
-
-@contextmanager
-def _alone(lock: Path, where: str) -> Iterator[None]:
-    """Two runs at once would take each other's unfinished files away."""
-    lock.parent.mkdir(parents=True, exist_ok=True)
-    with lock.open("w") as file:
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as error:
-            raise MeshmarkError(f"Another run is at work {where}. Wait for its end.") from error
-        yield
