@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from typing import Any
 
 import dask
-from dask.distributed import Client, Future, LocalCluster, as_completed
+from dask.distributed import Client, Future, LocalCluster, Security, as_completed
 
 from .errors import MeshmarkError
 
@@ -25,7 +25,7 @@ def client(scheduler: str | None, workers: int = 0) -> Iterator[Client]:
         dask.config.set({"distributed.scheduler.worker-ttl": None}),
         LocalCluster(
             n_workers=workers or os.cpu_count(), threads_per_worker=1, dashboard_address=None,
-            silence_logs=logging.ERROR,
+            silence_logs=logging.ERROR, security=Security.temporary(),  # other users of this machine can reach its port
         ) as cluster,
         Client(cluster) as local,
     ):  # fmt: skip
