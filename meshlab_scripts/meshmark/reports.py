@@ -64,6 +64,9 @@ class EmbedReport(Report):
         return f"'{self.message}' is embedded: {self.change} To read it: {self.recipe}"
 
 
+BOUNDS = ("p_message", "p_value", "p_binomial", "presence")  # of probabilities
+
+
 class Finding(IntEnum):
     """The verdict's kind."""
 

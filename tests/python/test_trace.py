@@ -303,9 +303,12 @@ def test_what_reads_from_some_part_names_nobody(shops: tuple[Shop, Shop]) -> Non
     """Though the file as a whole is a model that the recipient has: it is not what was read."""
     shop = shops[0]
     with Ledger(shop.folder / "ledger.sqlite") as ledger:
-        (recipient, *_), (own, *_) = ledger.recipients(), ledger.models()
+        copy = ledger.copies()[0]
+        own = next(one for one in ledger.models() if one.id == copy.model)
         likes = {"the whole file": [Likeness("the whole file", own, 0, 0, 1)]}
         for parts, answer in ((None, Answer.NAME), ([{"p_value": 1e-12}], Answer.CANNOT_TELL)):
             whole = told(Finding.PRESENT, parts=parts)
-            read = replace(whole, readings=[replace(whole.best, recipient=recipient, p=1e-12)])
-            assert judge(read, likes, ledger).answer == answer
+            best = replace(whole.best, settings=copy.recipe, recipient=copy.recipient, p=1e-12)
+            assert judge(replace(whole, readings=[best]), likes, ledger).answer == answer
+            other = replace(best, settings=replace(copy.recipe, bits=copy.recipe.bits + 1))
+            assert judge(replace(whole, readings=[other]), likes, ledger).answer == Answer.CANNOT_TELL

@@ -205,10 +205,11 @@ class Ledger:
         """Of one recipient."""
         return self._do("SELECT name FROM recipients WHERE id = ?", (recipient,)).fetchone()[0]
 
-    def has(self, model: int, recipient: int) -> bool:
-        """Whether this copy was made."""
-        row = self._do("SELECT 1 FROM copies WHERE model = ? AND recipient = ?", (model, recipient)).fetchone()
-        return row is not None
+    def has(self, model: int, recipient: int, recipe: Settings) -> bool:
+        """Whether this copy was made, with this recipe."""
+        these = (model, recipient, _text(recipe))
+        found = self._do("SELECT 1 FROM copies WHERE model = ? AND recipient = ? AND recipe = ?", these)
+        return found.fetchone() is not None
 
     @property
     def empty(self) -> bool:
@@ -266,7 +267,7 @@ class Ledger:
         """Enters a copy, and brings its file from where it lies to its name."""
         self._do(
             "INSERT INTO copies VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
-            (copy.model, copy.recipient, copy.file, copy.sha256, copy.part, json.dumps(vars(copy.recipe)),
+            (copy.model, copy.recipient, copy.file, copy.sha256, copy.part, _text(copy.recipe),
              json.dumps(copy.figures), now()),
         )  # fmt: skip
         self._arrive(copy, folder)
@@ -301,6 +302,10 @@ class Ledger:
 
     def __exit__(self, *_: object) -> None:
         self._sql.close()
+
+
+def _text(recipe: Settings) -> str:
+    return json.dumps(vars(recipe))
 
 
 def _bring(part: Path, place: Path) -> None:

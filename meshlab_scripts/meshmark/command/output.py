@@ -9,7 +9,8 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from ..reports import Report
+from ..bounds import rounded_up
+from ..reports import BOUNDS, Report
 
 console = Console(highlight=False)
 errors = Console(stderr=True, highlight=False)
@@ -22,7 +23,7 @@ def show(report: Report, as_json: bool) -> None:
         return
     table = Table(box=None, show_header=False, pad_edge=False)
     for name, value in report.json().items():
-        text = _short(value)
+        text = rounded_up(value) if name in BOUNDS and isinstance(value, float) else _short(value)
         if text and name not in ("warnings", "verdict", "change", "recipe", "survival"):
             table.add_row(f"[dim]{name}[/]", escape(text))
     console.print(table)

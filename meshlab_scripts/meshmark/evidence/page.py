@@ -7,10 +7,10 @@ from importlib import metadata, resources
 from pathlib import Path
 from string import Template
 
+from ..bounds import odds, rounded_up
 from ..catalog.ledger import Copy, Ledger, now
 from ..catalog.plan import digest
 from ..tracing import Answer, Trace
-from ..tracing.bounds import odds, rounded_up
 from ..tracing.originals import unchanged
 from .pictures import picture
 

@@ -11,7 +11,7 @@ from matplotlib import pyplot as plt
 from numpy.typing import NDArray
 
 from .. import host, plugin
-from ..formats import Body, read_body, weld
+from ..formats import read_body
 from ..shape.alignment import laid_on
 from .drawing import GREY, draw, rotation
 
@@ -21,13 +21,13 @@ FAR = 2e-3  # of the diagonal: what the scale of colours ends at
 
 def picture(found: Path, original: Path | None) -> bytes:
     """A PNG: the found file alone, or beside the model that it is laid on, and the distance between the two."""
-    mesh = _mesh(read_body(found))
+    mesh = read_body(found).welded()
     if original is None:
         figure, axes = plt.subplots(figsize=(4.5, 4.2), layout="constrained")
         _plain(axes, _upright(mesh), "found")
         return _png(figure)
-    model = _mesh(read_body(original))
-    laid, _ = laid_on(*mesh, *model)
+    model = read_body(original).welded()
+    laid = laid_on(*mesh, *model)
     faces = mesh[1] if _same_sense(laid, mesh[1], model) else mesh[1][:, ::-1]
     view = _view(model[0])
     figure, axes = plt.subplots(1, 3, figsize=(13, 4.2), layout="constrained")
@@ -40,11 +40,6 @@ def picture(found: Path, original: Path | None) -> bytes:
     axes[2].set_title(f"distance from the model\nRMS {np.sqrt((apart**2).mean()):.1e} of the diagonal")
     figure.colorbar(scale, ax=axes[2], label="thousandths of the diagonal", shrink=0.8, extend="max")
     return _png(figure)
-
-
-def _mesh(body: Body) -> Mesh:
-    points, number = weld(body.points)
-    return points, number[body.faces].astype(np.int32)
 
 
 def _plain(axes: plt.Axes, mesh: Mesh, title: str) -> None:

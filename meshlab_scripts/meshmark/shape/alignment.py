@@ -12,8 +12,8 @@ SAMPLES = 4000
 STEPS = 30
 
 
-def laid_on(found: Array, found_faces: Array, model: Array, model_faces: Array) -> tuple[Array, float]:
-    """The points of `found` moved by the similarity that brings it nearest, and the mean distance then left.
+def laid_on(found: Array, found_faces: Array, model: Array, model_faces: Array) -> Array:
+    """The points of `found` moved by the similarity that brings it nearest.
 
     Starts from the principal axes of the surfaces in their eight senses, goes on by iterated closest points (Besl and
     McKay 1992) with Umeyama's similarity (1991), and from the best of these by distances to planes (Chen and Medioni
@@ -37,8 +37,7 @@ def laid_on(found: Array, found_faces: Array, model: Array, model_faces: Array) 
         _, nearest = target.query(moved)
         step, shift = _slide(moved, samples[nearest], normals[nearest])
         linear, offset = step @ linear, step @ offset + shift
-    left = float(target.query(some @ linear.T + offset)[0].mean())
-    return found @ linear.T + offset, left
+    return found @ linear.T + offset
 
 
 def _samples(points: Array, faces: Array) -> tuple[Array, Array]:

@@ -146,6 +146,6 @@ def _read(attempt: Attempt, key: Key) -> Reading:
         reading,
         recipient=recipients[report.candidate or 0],  # of one alone the filter gives no number
         p=1.0 if report.p_value is None else report.p_value,
-        runner_up_p=report.runner_up_p or 1.0,
+        runner_up_p=1.0 if report.runner_up_p is None else report.runner_up_p,
         report=report,
     )

@@ -4,9 +4,9 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
+from ..bounds import rounded_up
 from ..catalog.ledger import Ledger, Model
 from ..reports import Finding
-from .bounds import rounded_up
 from .likeness import Likeness, Likes, nearest, of_one_shape
 from .readings import PROVEN, Evidence, Reading
 
@@ -69,15 +69,17 @@ def _of_a_message(evidence: Evidence, likes: Likes, ledger: Ledger) -> Trace:
     """
     best = evidence.best
     name, p = ledger.name(best.recipient), rounded_up(evidence.p)
-    own = next((like for like in _may_be(best, likes) if ledger.has(like.model.id, best.recipient)), None)
+    own = next(
+        (like for like in _may_be(best, likes) if ledger.has(like.model.id, best.recipient, best.settings)), None
+    )
     if own is None:
         like = None if best.of_some_part else nearest(likes[best.piece])
         reason = (
             "from a part of the file that is no piece by itself, so its shape cannot be compared. Save that part as a "
             "file, and trace that."
             if best.of_some_part
-            else f"by its shape it is none of the models that {name} has. Who has a copy can put its mark into another "
-            "object: so nobody is named."
+            else f"by its shape it is none of the copies that {name} has with such a mark. Who has a copy can put its "
+            "mark into another object: so nobody is named."
         )
         text = f"Cannot tell. The message of {name} reads (p {p}), but {reason}{_in(best.piece)}"
         return Trace(Answer.CANNOT_TELL, text, evidence, _model(like), like)
@@ -138,7 +140,7 @@ def _mark_without_name(evidence: Evidence) -> str:
     verified = next((one.message for one in evidence.reports if evidence.bound(one.p_message) < PROVEN), "")
     if verified:
         return f"It carries '{verified}' of this key (proven), but no copy in the ledger has that message."
-    presence = evidence.bound(min((one.presence or 1 for one in evidence.reports), default=1))
+    presence = evidence.bound(min((one.presence for one in evidence.reports if one.presence is not None), default=1))
     if presence < PROVEN:
         return (
             f"A mark of this key is there (p {rounded_up(presence)}), but whose it is does not come out: the copy is "
