@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Lengths with a unit, such as 0.05mm, and the units that files are in."""
 
+import math
 import re
+from contextlib import suppress
 from dataclasses import dataclass
 
 from .errors import MeshmarkError
@@ -44,8 +46,8 @@ def read_length(text: "str | float | Length") -> Length:
         return text
     match = _TEXT.fullmatch(str(text))
     if match and (match[2] == "" or match[2] in MILLIMETRES):
-        try:
-            return Length(float(match[1]), match[2])
-        except ValueError:
-            pass
-    raise MeshmarkError(f"'{text}' is no length. Write a number and a unit: 0.05mm, 50um, 0.002in.")
+        with suppress(ValueError):
+            amount = float(match[1])
+            if 0 < amount < math.inf:
+                return Length(amount, match[2])
+    raise MeshmarkError(f"'{text}' is no length. Write a number above 0 and a unit: 0.05mm, 50um, 0.002in.")

@@ -10,7 +10,10 @@ from pathlib import Path
 
 import pytest
 from doors import MESHES
+from meshmark import marking
 from meshmark.command.app import main
+from meshmark.command.output import show
+from meshmark.reports import DetectReport, Finding
 
 KEY = "correct horse battery staple"
 ELEPHANT = MESHES / "elephant.off"
@@ -61,6 +64,8 @@ def test_errors_are_a_line_with_the_cause_and_exit_code_2(
         (("embed", ELEPHANT, "nowhere/out.off", "-m", "id:1", "--method", "Waves"), "cannot be written"),
         (("detect", ELEPHANT, "--key-file", "none.key"), "none.key"),
         (("detect", "nothere.stl"), "There is no file 'nothere.stl'"),
+        (("embed", ELEPHANT, "out.off", "-m", "file:list.txt"), "does not begin with 'file:'"),
+        (("embed", ELEPHANT, "out.off", "-m", "id:1", "--max-move", "0mm"), "above 0"),
     ]:
         assert code(*arguments) == 2, arguments
         said = capsys.readouterr().err
@@ -71,3 +76,22 @@ def test_errors_are_a_line_with_the_cause_and_exit_code_2(
     done = run("detect", "nothere.stl", cwd=tmp_path)
     assert (done.returncode, done.stderr.count("\n"), done.stdout) == (2, 1, "")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_fault_of_our_own_is_an_error_and_not_a_missing_mark(
+    code: Callable[..., int], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(marking, "detect", lambda *_, **__: 1 // 0)
+    assert code("detect", ELEPHANT) == 2
+    assert "fault of meshmark: ZeroDivisionError" in capsys.readouterr().err
+
+
+def test_what_is_shown_of_a_probability_is_rounded_up(capsys: pytest.CaptureFixture[str]) -> None:
+    report = DetectReport(
+        method="Layered", statistic="Mean", carriers=64, bits="", message="", trim=0, soft=[], samples=[],
+        p_message=3.21e-9, verified=True, verdict="Found.", finding=Finding.PRESENT, p_value=1.0001e-12,
+    )  # fmt: skip
+    show(report, as_json=False)
+    said = capsys.readouterr().out
+    assert "3.3e-9" in said
+    assert "1.1e-12" in said

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The command itself: exit code 0 for a find (or a job done), 1 for none, 2 for an error with its cause and cure."""
+"""The command itself: exit code 0 for a find (or a job done), 1 for none, 2 for an error, 3 where it cannot be told."""
 
 import sys
+import traceback
 from importlib import metadata
 from typing import Annotated
 
@@ -36,7 +37,7 @@ def _about(
 ) -> None:
     """Marks copies of 3D models, one for each recipient, and tells from a found copy whose it was.
 
-    Exit codes: 0 found (or done), 1 not found, 2 error.
+    Exit codes: 0 found (or done), 1 not found, 2 error, 3 cannot tell (trace).
     """
 
 
@@ -49,3 +50,11 @@ def main() -> None:
         sys.exit(ERROR)
     except KeyboardInterrupt:
         sys.exit(130)
+    except Exception as error:  # the interpreter's own code for it is 1, which is "not found"
+        traceback.print_exc()
+        errors.print(
+            f"[bold red]meshmark:[/] This is a fault of meshmark: {escape(repr(error))}. Report it with all that is "
+            "above.",
+            soft_wrap=True,
+        )
+        sys.exit(ERROR)

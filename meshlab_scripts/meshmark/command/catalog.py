@@ -88,7 +88,10 @@ def _show_forecast(plan: Forecast, as_json: bool) -> None:
         print_json(vars(plan))
         return
     warn([f"{name}: {reason}" for name, reason in plan.broken.items()])
-    time = "unknown, since the model tried refused" if plan.seconds is None else f"about {_duration(plan.seconds)}"
+    if plan.copies == 0:
+        console.print(f"No copies to make: {plan.before:,} are there.")
+        return
+    time = "unknown, since the models tried refused" if plan.seconds is None else f"about {_duration(plan.seconds)}"
     console.print(
         f"{plan.copies:,} copies to make ({plan.before:,} are there), {plan.bytes / 1e6:,.1f} MB, {time} with "
         f"{plan.workers} workers."
