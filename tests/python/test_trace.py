@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whose copy is it: the right name through what files go through, nobody for what is not ours, and no guesses."""
 
+import json
 import sys
 from collections.abc import Iterator
 from dataclasses import replace
@@ -205,21 +206,26 @@ def test_p_counts_candidates_and_readings(shops: tuple[Shop, Shop], tmp_path: Pa
 
 
 def test_the_command_says_it_by_its_exit_code(
-    shops: tuple[Shop, Shop], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    shops: tuple[Shop, Shop], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     shop = shops[0]
     body(6).export(tmp_path / "another object.stl")
-    options = ["--ledger", str(shop.folder / "ledger.sqlite"), "--key-file", str(shop.folder / "secret.key"), "--json"]
+    options = ["--ledger", str(shop.folder / "ledger.sqlite"), "--key-file", str(shop.folder / "secret.key")]
     for file, code in [
         (shop.copy("Jane", "body0.stl"), 0),
         (shop.models / "body0.stl", 1),
         (tmp_path / "nothing.stl", 2),
         (tmp_path / "another object.stl", 3),
     ]:
-        monkeypatch.setattr(sys, "argv", ["meshmark", "trace", *options, str(file)])
-        with pytest.raises(SystemExit) as left:
-            main()
-        assert left.value.code == code, file
+        said = []
+        for form in ([], ["--json"]):
+            monkeypatch.setattr(sys, "argv", ["meshmark", "trace", *options, *form, str(file)])
+            with pytest.raises(SystemExit) as left:
+                main()
+            assert left.value.code == code, file
+            said.append(capsys.readouterr().out)
+        if code != 2:
+            assert json.loads(said[1])["sentence"] in " ".join(said[0].split())
 
 
 def test_a_signature_is_that_of_the_shape(tmp_path: Path) -> None:

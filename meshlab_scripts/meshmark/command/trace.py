@@ -40,7 +40,7 @@ def _trace(
     if as_json:
         print_json(result.json())
     else:
-        for one in result.readings:
+        for one in result.evidence.readings:
             console.print(f"[dim]{escape(str(one))}[/]", soft_wrap=True)
         console.print(f"[bold]{escape(result.sentence)}[/]", soft_wrap=True)
     raise typer.Exit(CODES[result.answer])
