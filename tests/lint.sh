@@ -8,6 +8,7 @@ git ls-files -co --exclude-standard '*.h' '*.cpp' | xargs clang-format --dry-run
 build/venv/bin/ruff check --no-cache meshlab_scripts tests
 build/venv/bin/ruff format --check --no-cache meshlab_scripts tests
 git ls-files -co --exclude-standard '*.sh' .ci/run | while read -r script; do bash -n "$script"; done
+build/venv/bin/mypy --config-file .mypy.ini -p meshmark -p evaluation
 build/venv/bin/python -m pytest -q -p no:cacheprovider tests/lint
 
 [ "${1-}" = tidy ] || exit 0

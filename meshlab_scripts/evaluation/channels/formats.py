@@ -16,7 +16,7 @@ MESHLAB_READS_ONLY = {"GLB"}
 def round_trip(kind: str) -> Channel:
     """The channel of a format: three programs hand the file on."""
 
-    def channel(shape: Shape, _passage: Passage | None = None) -> Shape:
+    def channel(shape: Shape, _passage: Passage) -> Shape:
         with tempfile.TemporaryDirectory(prefix="channel-") as folder:
             first, second, third = (Path(folder) / f"{number}.{kind.lower()}" for number in range(3))
             shape.write(first)

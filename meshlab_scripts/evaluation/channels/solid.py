@@ -37,4 +37,4 @@ def hollowed(shape: Shape, passage: Passage) -> Shape:
 
 def in_units(shape: Shape, passage: Passage) -> Shape:
     """As a file in which a number means another length: 25.4 for inches taken for millimetres, .001 for metres."""
-    return round_trip("STL")(shape.scaled(passage.amount))
+    return round_trip("STL")(shape.scaled(passage.amount), passage)

@@ -247,7 +247,10 @@ class Ledger:
         rows = self._do(
             "SELECT model, recipient, file, sha256, part, recipe, figures, made FROM copies ORDER BY model, recipient"
         )
-        return [Copy(*row[:5], Settings(**json.loads(row[5])), json.loads(row[6]), row[7]) for row in rows]
+        return [
+            Copy(*place, recipe=Settings(**json.loads(recipe)), figures=json.loads(figures), made=made)
+            for *place, recipe, figures, made in rows
+        ]
 
     def candidates(self) -> dict[Settings, dict[int, int]]:
         """Who has a copy of this recipe: recipient and message."""

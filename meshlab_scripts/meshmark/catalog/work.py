@@ -8,6 +8,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 from .. import marking
 from ..errors import FormatError, MeshmarkError, MovesTooMuch, NotReadBack, Refused
@@ -27,7 +28,7 @@ class Made:
     part: str = ""
     sha256: str = ""
     recipe: dict[str, object] | None = None
-    figures: dict[str, object] | None = None
+    figures: dict[str, Any] | None = None
     seconds: float = 0
     refusal: str = ""  # of the model itself: so it would be again
     failure: str = ""  # of this machine, here and now: another run may succeed
