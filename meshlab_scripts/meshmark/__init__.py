@@ -6,7 +6,7 @@ meshmark.embed("dragon.stl", "for-jane.stl", message="id:17", key="file:secret.k
 print(meshmark.detect("found.stl", expected="id:17", key="file:secret.key"))
 """
 
-from .errors import FormatError, MeshmarkError, MovesTooMuch, NotReadBack, Refused
+from .errors import Failed, FormatError, MeshmarkError, MovesTooMuch, NotReadBack, Refused
 from .key import Key
 from .length import Length
 from .marking import attack, detect, embed, measure
@@ -14,6 +14,7 @@ from .reports import AttackReport, DetectReport, DistortionReport, EmbedReport
 from .settings import Method, Settings, Statistic
 
 __all__ = [
-    "AttackReport", "DetectReport", "DistortionReport", "EmbedReport", "FormatError", "Key", "Length", "MeshmarkError",
-    "Method", "MovesTooMuch", "NotReadBack", "Refused", "Settings", "Statistic", "attack", "detect", "embed", "measure",
+    "AttackReport", "DetectReport", "DistortionReport", "EmbedReport", "Failed", "FormatError", "Key", "Length",
+    "MeshmarkError", "Method", "MovesTooMuch", "NotReadBack", "Refused", "Settings", "Statistic", "attack", "detect",
+    "embed", "measure",
 ]  # fmt: skip

@@ -10,6 +10,10 @@ class Refused(MeshmarkError):
     """A filter refused: the mesh does not carry the message, a value is out of its range, and so on."""
 
 
+class Failed(MeshmarkError):
+    """A filter failed by itself, for want of memory or by a fault of ours: that says nothing of the mesh."""
+
+
 class FormatError(MeshmarkError):
     """A file that cannot be read or written with all that is in it."""
 

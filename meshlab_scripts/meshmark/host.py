@@ -14,7 +14,7 @@ from pathlib import Path
 import pymeshlab
 
 from . import plugin
-from .errors import FormatError, Refused
+from .errors import Failed, FormatError, Refused
 
 Value = str | int | float | bool
 Json = dict[str, object]
@@ -27,6 +27,7 @@ ERRORS = (
     pymeshlab.MissingCompactnessException,
     pymeshlab.MissingComponentException,
 )
+_FAULTS = ("Not enough memory", "Internal error")  # as filter_watermark.cpp begins, where it is not the mesh
 _alive: list[pymeshlab.MeshSet] = []
 
 
@@ -74,13 +75,15 @@ def apply(meshes: pymeshlab.MeshSet, name: str, **values: Value) -> Json:
     """Applies a filter to the current layer, and returns its numbers: those that pymeshlab's dict can hold.
 
     :raises Refused: with the filter's own words
+    :raises Failed: likewise, where the mesh is not the cause
     """
     plugin.load()
     try:
         return dict(meshes.apply_filter(name, **values))
     except ERRORS as error:
         _keep(meshes)
-        raise Refused(_details(error)) from error
+        words = _details(error)
+        raise (Failed if words.startswith(_FAULTS) else Refused)(words) from error
 
 
 def apply_with_report(meshes: pymeshlab.MeshSet, name: str, **values: Value) -> Json:

@@ -227,8 +227,12 @@ def test_a_fault_of_the_machine_is_no_refusal(order: Order, monkeypatch: pytest.
     def full(*_: object) -> None:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
+    def narrow(*_: object, **__: object) -> None:
+        raise meshmark.Failed("Not enough memory.")
+
     for place, name, fault, words in [
         (Path, "replace", full, "No space left"),
+        (work.marking, "embed", narrow, "Not enough memory"),
         (os, "fsync", full, "No space left"),
         (run_module, "make", full, "No space left"),
         (work, "_check", lambda *_: "", "another key"),

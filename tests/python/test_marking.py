@@ -151,3 +151,24 @@ def test_attack_and_measure(tmp_path: Path) -> None:
     assert 0 < far.mean <= far.mrms <= far.hausdorff
     assert meshmark.measure(ELEPHANT, ELEPHANT).hausdorff == pytest.approx(0, abs=1e-12)
     assert np.isfinite(far.snr_db)
+
+
+def test_a_filter_that_fails_by_itself_says_nothing_of_the_mesh() -> None:
+    """In a process of its own, with little memory left: the reading fails, and is no refusal."""
+    text = f"""
+import resource, meshmark, pymeshlab
+from meshmark import host, plugin
+meshmark.detect({str(ELEPHANT)!r}, key={KEY!r}, method="Waves")
+with host.own_meshes() as meshes:
+    host.read(meshes, __import__("pathlib").Path({str(ELEPHANT)!r}))
+    meshes.meshing_surface_subdivision_midpoint(iterations=4, threshold=pymeshlab.PercentageValue(0))
+    used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+    resource.setrlimit(resource.RLIMIT_AS, (used + (1 << 20), resource.RLIM_INFINITY))
+    try:
+        meshmark.detect(meshes, key={KEY!r}, method="Waves")
+    except meshmark.Failed as error:
+        resource.setrlimit(resource.RLIMIT_AS, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+        print(error)
+"""
+    done = subprocess.run([sys.executable, "-c", text], text=True, capture_output=True, check=False)
+    assert "Not enough memory" in done.stdout, done.stderr

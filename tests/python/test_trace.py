@@ -13,12 +13,14 @@ import pytest
 import trimesh
 from bodies import body, write_bodies
 from dask.distributed import LocalCluster
+from meshmark import marking
 from meshmark.catalog import Ledger, Order, make_copies
 from meshmark.catalog.ledger import Model
 from meshmark.catalog.plan import digest
 from meshmark.catalog.recipients import Recipient
 from meshmark.command.app import main
 from meshmark.formats import Body, read_body
+from meshmark.key import find_key
 from meshmark.reports import DetectReport, Finding
 from meshmark.settings import Settings
 from meshmark.shape.pieces import pieces
@@ -318,3 +320,13 @@ def test_what_reads_from_some_part_names_nobody(shops: tuple[Shop, Shop]) -> Non
             assert judge(replace(whole, readings=[best]), likes, ledger).answer == answer
             other = replace(best, settings=replace(copy.recipe, bits=copy.recipe.bits + 1))
             assert judge(replace(whole, readings=[other]), likes, ledger).answer == Answer.CANNOT_TELL
+
+
+def test_a_reading_that_failed_is_not_nobodys(shops: tuple[Shop, Shop], monkeypatch: pytest.MonkeyPatch) -> None:
+    def narrow(*_: object, **__: object) -> None:
+        raise meshmark.Failed("Not enough memory.")
+
+    shop = shops[0]
+    monkeypatch.setattr(marking, "detect", narrow)
+    with Ledger(shop.folder / "ledger.sqlite") as ledger, pytest.raises(meshmark.Failed):
+        trace(shop.models / "body0.stl", ledger, find_key(shop.key))
