@@ -154,16 +154,16 @@ def test_attack_and_measure(tmp_path: Path) -> None:
 
 
 def test_a_filter_that_fails_by_itself_says_nothing_of_the_mesh() -> None:
-    """In a process of its own, with little memory left: the reading fails, and is no refusal."""
+    """In a process of its own, with memory left for the key and no more: the reading fails, and is no refusal."""
     text = f"""
 import resource, meshmark, pymeshlab
 from meshmark import host, plugin
 meshmark.detect({str(ELEPHANT)!r}, key={KEY!r}, method="Waves")
 with host.own_meshes() as meshes:
     host.read(meshes, __import__("pathlib").Path({str(ELEPHANT)!r}))
-    meshes.meshing_surface_subdivision_midpoint(iterations=4, threshold=pymeshlab.PercentageValue(0))
+    meshes.meshing_surface_subdivision_midpoint(iterations=5, threshold=pymeshlab.PercentageValue(0))
     used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
-    resource.setrlimit(resource.RLIMIT_AS, (used + (1 << 20), resource.RLIM_INFINITY))
+    resource.setrlimit(resource.RLIMIT_AS, (used + (80 << 20), resource.RLIM_INFINITY))
     try:
         meshmark.detect(meshes, key={KEY!r}, method="Waves")
     except meshmark.Failed as error:

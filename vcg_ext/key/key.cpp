@@ -45,8 +45,7 @@ void derive(const Secret& secret, std::array<unsigned char, 32>& master)
     const std::lock_guard<std::mutex> lock(one_at_a_time);
     if (crypto_pwhash(master.data(), master.size(), secret.data(), secret.size(),
                       reinterpret_cast<const unsigned char*>(salt), passes, memory, crypto_pwhash_ALG_ARGON2ID13) != 0)
-        throw Error(
-            "Deriving the key needs 64 MiB of memory, which could not be had. Close other programs and try again.");
+        throw Error("Not enough memory: deriving the key needs 64 MiB. Close other programs and try again.");
 }
 
 Secret read_file(const std::string& path)
