@@ -27,7 +27,7 @@ ERRORS = (
     pymeshlab.MissingCompactnessException,
     pymeshlab.MissingComponentException,
 )
-_FAULTS = ("Not enough memory", "Internal error")  # as filter_watermark.cpp begins, where it is not the mesh
+_FAULTS = ("Not enough memory", "Internal error")  # so the plugin begins (filter_watermark.cpp, key.cpp)
 _alive: list[pymeshlab.MeshSet] = []
 
 

@@ -175,7 +175,7 @@ def _embed(
     limit: Length | None = None,
     unit: str = "mm",
 ) -> EmbedReport:
-    before = meshes.current_mesh().transformed_vertex_matrix()
+    before = None if limit is None else meshes.current_mesh().transformed_vertex_matrix()
     with key.lent() as lent:
         report = EmbedReport.read(host.apply_with_report(meshes, plugin.EMBED, key=lent, **values))
     if limit is not None:
