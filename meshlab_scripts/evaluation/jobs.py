@@ -62,7 +62,7 @@ class Job:
 
     @property
     def before(self) -> "Job":
-        """The job that this one needs: an attack its mark, one within limits that of key 0 with the strength."""
+        """The job that this one needs: an attack its mark, one within limits that of key 0, whose strength is near."""
         return replace(self, key=0) if self.kind == "embed" and self.limits else self.mark
 
     @property

@@ -4,7 +4,6 @@
 import json
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -146,32 +145,37 @@ def _marked(job: Job, site: Site) -> Path:
 
 
 def _strength(job: Job, site: Site) -> float:
-    """The job's strength; or the strongest of its mesh and method, found with key 0, that keeps its limits.
-
-    What was found, or that there is none, is kept: the mark's attacks ask again where it could not be made.
-    """
-    if not job.limits:
-        return job.strength
-    known = site.cache / f"{replace(job, key=0).name}.json"
-    if not known.exists():
-        with replaced(known) as part:
-            part.write_text(json.dumps(_strongest(replace(job, key=0), site)), encoding="utf-8")
-    found = json.loads(known.read_text(encoding="utf-8"))
-    if found is None:
+    """The job's strength, or the strongest of its mesh, method and key that keeps its limits."""
+    strength = _found(job, site) if job.limits else job.strength
+    if strength is None:
         raise ValueError(f"No strength at which the mark reads back keeps the limits {dict(job.limits)}.")
-    return found
+    return strength
 
 
-def _strongest(job: Job, site: Site) -> float | None:
-    """From the top down to the strongest mark that keeps the limits, as if distortion grew with the strength.
+def _found(job: Job, site: Site) -> float | None:
+    """What was found, or that there is none, is kept: the mark's attacks ask again where it could not be made."""
+    known = site.cache / f"{job.name}.json"
+    if not known.exists():
+        first = _found(job.before, site) if job.key else None  # that of another key is near
+        with replaced(known) as part:
+            part.write_text(json.dumps(_strongest(job, site, first)), encoding="utf-8")
+    return json.loads(known.read_text(encoding="utf-8"))
+
+
+def _strongest(job: Job, site: Site, first: float | None) -> float | None:
+    """From the first, or else from the top, to the strongest mark that keeps the limits, as if distortion grew with
+    the strength.
 
     What does not read back is refused: below the first mark that reads, but breaks the limits, it is too weak, and
     elsewhere too strong.
     """
     least, most = STRENGTHS.get(job.method, STRENGTHS[METHODS[job.method][1]])
-    strength, low, high, kept, seen = most, 0.0, math.inf, 0.0, False
+    strength, low, high, kept, seen = first or most, 0.0, math.inf, 0.0, False
     for _ in range(STEPS):
         excess = _excess(job, strength, site)
+        if excess == math.inf and strength == first:  # too weak or too strong: the top tells
+            first, strength = None, most
+            continue
         if excess <= 1:
             kept = low = strength
         elif excess == math.inf and seen and not kept:
@@ -181,7 +185,7 @@ def _strongest(job: Job, site: Site) -> float | None:
         seen = seen or excess < math.inf
         if 1 - CLOSE <= excess <= 1 or kept == most or high < (1 + CLOSE) * kept:
             break
-        strength *= (1 - CLOSE / 2) / excess
+        strength = min(most, strength * (1 - CLOSE / 2) / excess)
         if not low < strength < high:
             strength = math.sqrt(low * high) if low else high / 2
         if strength < least:

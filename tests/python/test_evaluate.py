@@ -152,10 +152,13 @@ def test_job_that_fails_is_recorded_and_the_rest_goes_on(tmp_path: Path) -> None
 
 @pytest.mark.parametrize(("weakest", "most"), [(0.001, 0.3), (0.03, 0.3), (0.14, 0.3), (0.01, 0.12), (0.01, 0.08)])
 @pytest.mark.parametrize("power", [0.5, 1, 2])
+@pytest.mark.parametrize("first", [None, 0.14, 0.16, 0.02, 0.3])
 def test_strength_is_the_strongest_within_the_limits(
-    weakest: float, most: float, power: float, monkeypatch: pytest.MonkeyPatch
+    first: float | None, weakest: float, most: float, power: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Whether the distortion grows as the strength or not, and where marks below a strength do not read back."""
+    """Whether the distortion grows as the strength or not, and where marks below a strength do not read back; from
+    the top down, or from what another key has.
+    """
     asked = []
 
     def excess(_job: Job, strength: float, _site: Site) -> float:
@@ -165,8 +168,24 @@ def test_strength_is_the_strongest_within_the_limits(
     monkeypatch.setattr(work, "_excess", excess)
     job = Job(kind="embed", mesh="m", mesh_digest="", plugin_digest="", method="L-MMean", limits=(("mrms", 1.0),))
     best = min(most, 0.15)
-    assert 0.98 * best <= work._strongest(job, Site(Path(), Path(), Path())) <= best
+    assert 0.98 * best <= work._strongest(job, Site(Path(), Path(), Path()), first) <= best
     assert len(asked) <= 16
+
+
+def test_each_key_keeps_the_limits(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Each with a strength of its own, which is the same whichever is sought first."""
+    worth = [1.0, 1.4, 0.6]
+    monkeypatch.setattr(work, "_excess", lambda job, strength, _: worth[job.key] * strength / 0.1)
+    job = Job(kind="embed", mesh="m", mesh_digest="", plugin_digest="", method="L-MMean", limits=(("mrms", 1.0),))
+    jobs = [replace(job, key=key) for key in range(3)]
+    found = []
+    for order in (jobs, jobs[::-1]):
+        site = Site(Path(), Path(), tmp_path / str(len(found)))
+        site.cache.mkdir()
+        found.append({job.key: work._strength(job, site) for job in order})
+    assert found[0] == found[1]
+    for key, strength in found[0].items():
+        assert 0.98 <= worth[key] * strength / 0.1 <= 1
 
 
 def test_no_strength_keeps_the_limits_and_is_sought_once(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
