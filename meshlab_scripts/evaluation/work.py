@@ -203,4 +203,9 @@ def _excess(job: Job, strength: float, site: Site) -> float:
             return math.inf
         if any(name not in results for name, _ in job.limits):  # MSDM, which takes no samples
             results = apply(meshes, plugin.MEASURE, reference=0, samples=1) | results
+        excess = _worst(job, results)
+        return excess if excess > 1 else _worst(job, apply(meshes, plugin.MEASURE, reference=0))  # as reported
+
+
+def _worst(job: Job, results: Numbers) -> float:
     return max(results[name] / limit for name, limit in job.limits)
