@@ -61,10 +61,11 @@ class EmbedReport(Report):
     recipe: str = ""
 
     def __str__(self) -> str:
-        return f"'{self.message}' is embedded: {self.change} To read it: {self.recipe}"
+        survives = f" The mark {self.survival}" if self.survival else ""
+        return f"'{self.message}' is embedded: {self.change}{survives} {self.recipe[:1].upper()}{self.recipe[1:]}"
 
 
-BOUNDS = ("p_message", "p_value", "p_binomial", "presence")  # of probabilities
+BOUNDS = ("p_message", "p_value", "p_binomial", "presence", "runner_up_p")  # of probabilities
 
 
 class Finding(IntEnum):
