@@ -33,8 +33,8 @@ RichParameterList parameters(const MeshDocument&)
     RichParameterList list;
     list.addParam(RichEnum("Attack", 0, names, "Attack",
                            "What to do to the mesh, which changes in place: duplicate the layer first."));
-    list.addParam(
-        RichFloat("Amount", -1, "Amount", "How much, as said above for each attack; -1 takes the usual amount."));
+    list.addParam(RichFloat("Amount", -1, "Amount",
+                            "How much, in the unit that the help names for each attack; -1 takes the usual amount."));
     list.addParam(RichInt("Iterations", -1, "Iterations",
                           "How often, for Smooth, Remesh, Subdivide, Taubin, Loop and Sqrt3; -1: as usual."));
     list.addParam(RichInt("Seed", 0, "Seed", "Of all random draws, 0 or more."));

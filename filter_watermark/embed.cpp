@@ -31,7 +31,7 @@ RichParameterList parameters(const MeshDocument&)
 {
     RichParameterList list;
     list.addParam(RichString("Message", "", "Message",
-                             "Plain text, id:17 (a number), hex:C0FFEE, or bits:0110 (raw, not coded)."));
+                             "Plain text (up to 64 letters), id:17 (a number), hex:C0FFEE, or bits:0110 (raw)."));
     add_carrier_parameters(list, "0 (usual) takes as many carriers as the message needs to last; or 1 to 1024.");
     list.addParam(RichFloat("Strength", 0, "Strength",
                             "0 is usual: 1e-4 of the diagonal (Layered, Waves), 15 (Spectral), 0.1 (the others)."));

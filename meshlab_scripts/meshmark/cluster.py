@@ -21,11 +21,16 @@ def client(scheduler: str | None, workers: int = 0) -> Iterator[Client]:
             yield remote
         return
     with (
-        # A machine that slept, or a run that was paused, is no dead worker.
-        dask.config.set({"distributed.scheduler.worker-ttl": None}),
+        dask.config.set(
+            {
+                "distributed.scheduler.worker-ttl": None,  # a machine that slept is no dead worker, nor a paused run
+                "distributed.scheduler.http.routes": [],  # other users of this machine can reach its ports
+                "distributed.worker.http.routes": [],
+            }
+        ),
         LocalCluster(
-            n_workers=workers or os.cpu_count(), threads_per_worker=1, dashboard_address=None,
-            silence_logs=logging.ERROR, security=Security.temporary(),  # other users of this machine can reach its port
+            n_workers=workers or os.cpu_count(), threads_per_worker=1, silence_logs=logging.ERROR,
+            security=Security.temporary(), dashboard_address="127.0.0.1:0", scheduler_kwargs={"dashboard": False},
         ) as cluster,
         Client(cluster) as local,
     ):  # fmt: skip

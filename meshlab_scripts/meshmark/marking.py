@@ -85,7 +85,7 @@ def detect(
     bits: int = 0,
     trim: float = -1,
 ) -> DetectReport:
-    """Reads a mark, with the key alone or with the unmarked original too, and so from parts and bent copies.
+    """Reads a mark, with the key alone or with the unmarked original too, and so from parts and slightly bent copies.
 
     `expected` is a message to look for, or a list of which one may be there.
 

@@ -48,10 +48,13 @@ class EmbedReport(Report):
     layers: list[str] = field(default_factory=list)
     samples_min: float | None = None
     capacity: int | None = None
+    pieces: int | None = None
+    loose_pieces: int | None = None
     rounds: int | None = None
     guarded_vertices: int | None = None
     diagonal: float | None = None
     plane_bend: float | None = None
+    texture_stretch: float | None = None
     change: str = ""
     seconds: dict[str, float] = field(default_factory=dict)
     solver: dict[str, float] | None = None
@@ -61,10 +64,11 @@ class EmbedReport(Report):
     recipe: str = ""
 
     def __str__(self) -> str:
-        return f"'{self.message}' is embedded: {self.change} To read it: {self.recipe}"
+        survives = f" The mark {self.survival}" if self.survival else ""
+        return f"'{self.message}' is embedded: {self.change}{survives} {self.recipe[:1].upper()}{self.recipe[1:]}"
 
 
-BOUNDS = ("p_message", "p_value", "p_binomial", "presence")  # of probabilities
+BOUNDS = ("p_message", "p_value", "p_binomial", "presence", "runner_up_p")  # of probabilities
 
 
 class Finding(IntEnum):
@@ -103,7 +107,10 @@ class DetectReport(Report):
     candidate: int | None = None
     runner_up_p: float | None = None
     smoothing_rounds: float | None = None
-    orientation: object | None = None
+    orientation: str | None = None
+    pieces: int | None = None
+    loose_pieces: int | None = None
+    registration: dict[str, object] | None = None  # with the original: how the copy lies in it
     parts: list[dict[str, object]] | None = None  # of a plate whose whole said nothing: what was read instead
     layers: list[dict[str, object]] = field(default_factory=list)
     seconds: dict[str, float] = field(default_factory=dict)

@@ -21,6 +21,7 @@ DIRECTIVES: dict[str, Callable[..., str]] = {
     "parameters": reference.parameters,
     "results": reference.results,
     "attacks": reference.attacks,
+    "strengths": reference.strengths,
     "commands": reference.commands,
 }
 

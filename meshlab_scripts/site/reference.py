@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every parameter and result, as the plugin and the command themselves describe them."""
 
+import inspect
 import re
 import tempfile
 from functools import cache
@@ -78,10 +79,26 @@ def attacks() -> str:
     return "\n".join([head, "|---|---|---|---|---|", *rows])
 
 
+def strengths() -> str:
+    """A table of the methods' strengths: what the filter answers where it is asked for too much."""
+    choices = {str(one.get("name")): _choices(one) for one in _described()[plugin.EMBED][0]}
+    rows = []
+    for method in choices["Method"]:
+        limits = dict.fromkeys(
+            re.search(
+                r"above (.*) and up to (.*), or be 0 for the default of (.*)\.", _too_strong(method, one)
+            ).groups()
+            for one in choices["Statistic"]
+        )
+        above, most, usual = (" or ".join(dict.fromkeys(values)) for values in zip(*limits, strict=True))
+        rows.append(f"| {method} | {usual} | above {above}, up to {most} |")
+    return "\n".join(["| method | usual | may be |", "|---|---|---|", *rows])
+
+
 def commands() -> str:
     """What `meshmark` takes, command by command."""
     group = typer.main.get_command(app)
-    parts = []
+    parts = [inspect.cleandoc(str(group.help)).partition("\n\n")[2]]
     for name, command in sorted(group.commands.items()):
         lines = [f"## meshmark {name}", "", command.help.strip(), "", "| | default | |", "|---|---|---|"]
         for one in command.params:
@@ -109,15 +126,19 @@ def _described() -> dict[str, tuple[list[ElementTree.Element], dict[str, object]
         return {name: (list(one), values) for name, one, values in zip(FILTERS, filters, defaults, strict=True)}
 
 
-def _refusal(**values: host.Value) -> str:
-    """What the filter says against an attack; nothing where it has nothing against it."""
+def _refusal(name: str = plugin.ATTACK, **values: host.Value) -> str:
+    """What a filter says against these values; nothing where it has nothing against them."""
     with host.own_meshes() as meshes:
         host.read(meshes, MESH)
         try:
-            host.apply(meshes, plugin.ATTACK, **values)
+            host.apply(meshes, name, **values)
         except Refused as error:
             return str(error)
         return ""
+
+
+def _too_strong(method: str, statistic: str) -> str:
+    return _refusal(plugin.EMBED, message="id:1", key="a key", method=method, statistic=statistic, strength=1e9)
 
 
 def _choices(parameter: ElementTree.Element) -> list[str]:

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What comes of jobs: a result, an error, or nothing where the cluster is gone."""
 
+import http.client
+from contextlib import closing
+
 import meshmark
 import pytest
 from dask.distributed import LocalCluster
@@ -21,3 +24,14 @@ def test_results_errors_and_a_cluster_that_is_lost() -> None:
         cluster.close()
         with pytest.raises(meshmark.MeshmarkError, match="lost with 1 jobs"):
             list(ended([never]))
+
+
+def test_no_page_tells_other_users_of_the_machine_about_jobs() -> None:
+    with client(None, 1) as dask:
+        server = dask.cluster.scheduler.http_server
+        assert server.address == "127.0.0.1"
+        assert server.port != 8787  # dask's usual one, which warns where a second run finds it taken
+        for path in ("/info/main/workers.html", "/json/identity.json", "/metrics"):
+            with closing(http.client.HTTPConnection(server.address, server.port, timeout=20)) as asked:
+                asked.request("GET", path)
+                assert asked.getresponse().status == 404

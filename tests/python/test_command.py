@@ -13,7 +13,7 @@ from doors import MESHES
 from meshmark import marking
 from meshmark.command.app import main
 from meshmark.command.output import show
-from meshmark.reports import DetectReport, Finding
+from meshmark.reports import DetectReport, EmbedReport, Finding
 
 KEY = "correct horse battery staple"
 ELEPHANT = MESHES / "elephant.off"
@@ -95,3 +95,18 @@ def test_what_is_shown_of_a_probability_is_rounded_up(capsys: pytest.CaptureFixt
     said = capsys.readouterr().out
     assert "3.3e-9" in said
     assert "1.1e-12" in said
+
+
+def test_what_a_rehearsal_found_is_said_last_with_the_recipe(capsys: pytest.CaptureFixture[str]) -> None:
+    report = EmbedReport(
+        method="L-M", statistic="Mean", message="id:5", bits="", strength=0.1, trim=0, carriers=64, detection_ratio=1,
+        max_displacement=0, mrms=0, mrms_relative=0, moved_vertices=0, change="the surface moves.",
+        rehearsal={"noise": 1.122e-17}, survival="survives noise .1 % (p 1e-16); is lost by smoothing .5 x 5.",
+        recipe="read it with Method L-M.",
+    )  # fmt: skip
+    show(report, as_json=False)
+    *_, last = capsys.readouterr().out.splitlines()
+    assert last == (
+        "'id:5' is embedded: the surface moves. The mark survives noise .1 % (p 1e-16); is lost by smoothing .5 x 5. "
+        "Read it with Method L-M."
+    )

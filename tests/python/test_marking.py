@@ -32,6 +32,9 @@ def test_reports_are_typed_and_have_texts(marked: Marked) -> None:
     assert found.verdict.startswith("present: the mesh carries 'id:17'")
     assert str(found) == found.verdict
     assert meshmark.DetectReport.read(found.json()) == found
+    beside = meshmark.detect(file, original=ELEPHANT, expected="id:17", key=KEY, method="Waves", bits=64)
+    assert beside.registration["found"] is True
+    assert embedded.more | found.more | beside.more == {}  # nothing that the plugin says is without a type
 
 
 def test_a_list_of_candidates_names_one(marked: Marked) -> None:

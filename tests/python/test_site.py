@@ -21,6 +21,8 @@ import hooks  # noqa: E402
 import reference  # noqa: E402
 from equations import with_mathml  # noqa: E402
 from meshmark import host, plugin  # noqa: E402
+from meshmark.command import single  # noqa: E402
+from meshmark.settings import Method  # noqa: E402
 
 README_BLOCKS = blocks((ROOT / "README.md").read_text(encoding="utf-8"))  # test_readme.py runs these
 LOADING = {("script", "src"), ("img", "src"), ("link", "href"), ("source", "src"), ("iframe", "src")}
@@ -129,6 +131,19 @@ def test_attacks_are_told_with_what_the_filter_takes() -> None:
     rows = reference.attacks().splitlines()[2:]
     assert len(rows) == len(list((ROOT / "meshlab_scripts" / "attacks").iterdir()))
     assert "| Quantize | bits per axis | 8 | a whole number between 2 and 24 |  |" in rows
+    assert tuple(row.split(" | ")[0].removeprefix("| ") for row in rows) == single.ATTACKS
+
+
+def test_strengths_are_told_with_what_the_filter_takes() -> None:
+    rows = reference.strengths().splitlines()[2:]
+    assert [row.split(" | ")[0].removeprefix("| ") for row in rows] == list(Method)
+    assert "| Cho | 0.1 | above 0, up to 0.45 or 0.3 |" in rows
+
+
+def test_the_command_page_tells_exit_codes_and_every_command() -> None:
+    text = page("command.md")
+    assert "Exit codes: 0 found" in text
+    assert text.count("\n## meshmark ") == 7
 
 
 def test_an_excerpt_that_is_not_there_is_an_error() -> None:

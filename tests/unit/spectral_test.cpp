@@ -139,6 +139,22 @@ TEST(Spectral, TheChanceOfAWrongKeyIsFourTails)
     EXPECT_LE(below, 7); // of 20 with a chance of at most 0.1 each: more than 7 has a chance of 0.0004
 }
 
+TEST(Spectral, WhatReadsBetterThanChanceIsNotSaidToBeUnmarked)
+{
+    const EmbedOptions options = spectral(12); // all right is 2^-12
+    Surface marked = load("fandisk.off");
+    const Key key("few");
+    (void)embed(marked, key, options);
+    DetectOptions reading = reading_of(options);
+    reading.expected = {options.message};
+    const DetectReport found = detect(marked, key, reading);
+    EXPECT_EQ(found.finding, Verdict::NotFound);
+    EXPECT_GE(*found.p_value, std::pow(2, -12));
+    EXPECT_EQ(found.verdict.find("not found: a message reads better than chance would have it (p 1e-"), 0u)
+        << found.verdict << *found.p_value;
+    EXPECT_EQ(detect(load("fandisk.off"), key, reading).verdict.find("not found: no mark of this key"), 0u);
+}
+
 TEST(Spectral, AsPrintedIsReadBack)
 {
     EmbedOptions options = spectral(16);

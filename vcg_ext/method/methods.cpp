@@ -92,7 +92,7 @@ const std::vector<MethodRow>& all_methods()
          embed_norms<Radial::Sphere>},
         {Method::QSP,
          "QSP",
-         "vertex norms, faster",
+         "vertex norms, to compare",
          "norms",
          {{Method::QSP, 0}},
          true,

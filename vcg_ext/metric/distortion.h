@@ -25,7 +25,7 @@ struct DistortionReport {
     double hausdorff_relative = 0; ///< likewise
     double mean_relative = 0;      ///< likewise
     std::optional<double> snr_db;  ///< signal to noise of the vertices; empty where nothing moved (it is infinite)
-    std::optional<double> msdm;    ///< perceptual distance in [0, 1.34], see perceptual.h
+    std::optional<double> msdm;    ///< perceptual distance (MSDM): 0 for equal meshes, at most 1.34
     std::optional<double> volume_change; ///< of the enclosed volume, relative; empty where a mesh encloses none
     double area_change = 0;              ///< relative
     int samples = 0;                     ///< per direction, as used

@@ -24,6 +24,7 @@ namespace {
 
 constexpr int most_to_search = 256; ///< carriers that are read in full where their number is not known
 constexpr double sure = -6;         ///< log10 of the probability below which a finding is told as one
+constexpr double doubtful = -2;     ///< above it a reading is not told from chance
 
 /// How often carriers are counted, and what share of the doubt each count may use.
 struct Count {
@@ -272,12 +273,16 @@ void conclude(const DetectOptions& options, const Search& search, DetectReport& 
             result.verdict = std::string("another key or setting: the carriers of ") + name(layer.method) +
                              " are too strong for an unmarked mesh (" +
                              text(std::round(100 * mean_strength(layer)) / 100) + " standard errors, where up to " +
-                             text(usual) + " is usual), but hold no message of this key.";
+                             text(usual) + " is usual), but no message of this key is certain.";
             return;
         }
     }
     result.finding = Verdict::NotFound;
-    result.verdict = "not found: no mark of this key; the mesh is unmarked, or the mark is destroyed.";
+    const double least = asked ? std::min(log10_any, log10_expected) : log10_any;
+    result.verdict =
+        least < doubtful
+            ? "not found: a message reads better than chance would have it (" + chance(least) + "), but is not certain."
+            : "not found: no mark of this key; the mesh is unmarked, or the mark is destroyed.";
 }
 
 /// How the carriers match the expected message's, as the literature counts it. An erased carrier is no coin: it counts

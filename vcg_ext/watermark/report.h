@@ -42,10 +42,10 @@ struct EmbedReport {
 
 /// What a detection comes to.
 enum class Verdict {
-    NotFound,       ///< no mark of this key: unmarked, or destroyed
+    NotFound,       ///< no mark of this key that is certain: unmarked, or destroyed
     Present,        ///< the expected message; without one, a message that is verified
     AnotherMessage, ///< a verified message, but not the expected one
-    AnotherKey,     ///< the carriers are far stronger than an unmarked mesh's, but hold no message of this key
+    AnotherKey,     ///< the carriers are far stronger than an unmarked mesh's, but no message of this key is certain
     NoMessage       ///< a mark of this key, but its message does not come out
 };
 

@@ -16,11 +16,19 @@ AsJson = Annotated[bool, typer.Option("--json", help="The whole report as JSON o
 MethodName = Annotated[Method, typer.Option("--method", help="Detection needs the same one.")]
 MethodNames = Annotated[
     list[Method],
-    typer.Option("--method", help="Again for another one, which models take that refuse the first; detection is told."),
+    typer.Option(
+        "--method",
+        help="May be given several times: a model that refuses the first is marked by the next. trace knows.",
+    ),
 ]
 StatisticName = Annotated[Statistic, typer.Option("--statistic", help="Detection needs the same one.")]
-Bits = Annotated[int, typer.Option("--bits", min=0, max=1024, help="Number of carriers; 0 finds what suits.")]
-Trim = Annotated[float, typer.Option("--trim", help="-1 draws it from the key. Detection needs the same.")]
+Bits = Annotated[
+    int,
+    typer.Option(
+        "--bits", min=0, max=1024, help="Number of carriers; 0 is what suits the message, and detection finds it."
+    ),
+]
+Trim = Annotated[float, typer.Option("--trim", help="0 to 0.45; -1 draws it from the key. Detection needs the same.")]
 Strength = Annotated[float, typer.Option("--strength", min=0, help="0 is the method's default.")]
 MaxMove = Annotated[
     str | None,

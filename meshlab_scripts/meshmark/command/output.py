@@ -24,7 +24,7 @@ def show(report: Report, as_json: bool) -> None:
     table = Table(box=None, show_header=False, pad_edge=False)
     for name, value in report.json().items():
         text = rounded_up(value) if name in BOUNDS and isinstance(value, float) else _short(value)
-        if text and name not in ("warnings", "verdict", "change", "recipe", "survival"):
+        if text and name not in ("warnings", "verdict", "change", "recipe", "survival", "rehearsal"):
             table.add_row(f"[dim]{name}[/]", escape(text))
     console.print(table)
     warn(report.warnings)

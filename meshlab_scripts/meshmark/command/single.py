@@ -12,8 +12,15 @@ from ..settings import Method, Statistic
 from .options import AsJson, Bits, KeyFile, MaxMove, MethodName, StatisticName, Strength, Trim
 from .output import busy, show
 
+ATTACKS = (
+    "Noise", "Smooth", "Simplify", "Quantize", "Resample", "Remesh", "Isosurface", "Subdivide", "Crop", "Similarity",
+    "Affine", "Reorder", "Taubin", "Loop", "Sqrt3", "Mirror", "Plate",
+)  # fmt: skip
+
 Source = Annotated[Path, typer.Argument(metavar="IN", help="STL, PLY, OBJ, OFF, GLB or 3MF.", show_default=False)]
-Target = Annotated[Path, typer.Argument(metavar="OUT", help="Of the same kind.", show_default=False)]
+Target = Annotated[
+    Path, typer.Argument(metavar="OUT", help="Of the same kind. An OUT that exists is replaced.", show_default=False)
+]
 
 
 def add_to(app: typer.Typer) -> None:
@@ -25,7 +32,7 @@ def add_to(app: typer.Typer) -> None:
 def embed(
     source: Source,
     target: Target,
-    message: Annotated[str, typer.Option("--message", "-m", help="A text, id:17, or hex:C0FFEE.")],
+    message: Annotated[str, typer.Option("--message", "-m", help="A text (up to 64 letters), id:17, or hex:C0FFEE.")],
     key_file: KeyFile = None,
     method: MethodName = Method.LAYERED,
     statistic: StatisticName = Statistic.MEAN,
@@ -49,9 +56,13 @@ def detect(
     source: Source,
     key_file: KeyFile = None,
     expected: Annotated[
-        str | None, typer.Option("--expected", "-e", help="The message to look for, or file:PATH with one a line.")
+        str | None,
+        typer.Option("--expected", "-e", help="The message to look for, or file:PATH with one on each line."),
     ] = None,
-    original: Annotated[Path | None, typer.Option("--original", help="The unmarked model, if at hand.")] = None,
+    original: Annotated[
+        Path | None,
+        typer.Option("--original", help="The unmarked model, if at hand: reads parts and slight bends, too."),
+    ] = None,
     method: MethodName = Method.LAYERED,
     statistic: StatisticName = Statistic.MEAN,
     bits: Bits = 0,
@@ -70,9 +81,16 @@ def detect(
 
 def attack(
     source: Source,
-    target: Annotated[Path, typer.Argument(metavar="OUT", help="What pymeshlab writes.", show_default=False)],
-    name: Annotated[str, typer.Option("--attack", "-a", help="Noise, Smooth, Simplify, Quantize, Remesh, ...")],
-    amount: Annotated[float, typer.Option("--amount", help="-1 is the usual amount.")] = -1,
+    target: Annotated[
+        Path,
+        typer.Argument(
+            metavar="OUT",
+            help="In the format of its ending: any that pymeshlab writes. It keeps the shape only.",
+            show_default=False,
+        ),
+    ],
+    name: Annotated[str, typer.Option("--attack", "-a", help=f"{', '.join(ATTACKS[:-1])} or {ATTACKS[-1]}.")],
+    amount: Annotated[float, typer.Option("--amount", help="Of the attack's own kind; -1 is the usual amount.")] = -1,
     iterations: Annotated[int, typer.Option("--iterations", help="-1 is the usual number.")] = -1,
     seed: Annotated[int, typer.Option("--seed", min=0)] = 0,
     as_json: AsJson = False,
@@ -86,7 +104,9 @@ def attack(
 def measure(
     source: Source,
     reference: Annotated[Path, typer.Argument(metavar="REFERENCE", help="To compare with.", show_default=False)],
-    samples: Annotated[int, typer.Option("--samples", min=0, help="0 is ten a vertex.")] = 0,
+    samples: Annotated[
+        int, typer.Option("--samples", min=0, help="Points on each surface; 0 is ten for each vertex.")
+    ] = 0,
     seed: Annotated[int, typer.Option("--seed", min=0)] = 0,
     as_json: AsJson = False,
 ) -> None:

@@ -26,7 +26,7 @@ def _trace(
     ledger: Annotated[Path, typer.Option("--ledger", "-l", help="Of the catalogue.")] = Path("ledger.sqlite"),
     original: Annotated[
         Path | None,
-        typer.Option("--original", help="Folder of unmarked models: reads parts, too."),
+        typer.Option("--original", help="Folder of the unmarked models: reads parts and slight bends, too."),
     ] = None,
     key_file: KeyFile = None,
     as_json: AsJson = False,

@@ -16,7 +16,7 @@ from .verdict import Trace, judge
 
 def trace(found: Path, ledger: Ledger, key: Key, originals: Path | None = None) -> Trace:
     """Whose copy a file is. `originals` is the folder of the unmarked models: with these, where blind reading fails,
-    parts and bent copies are read too.
+    parts and slightly bent copies are read too.
 
     :raises FormatError: where it cannot be read
     :raises MeshmarkError: where the ledger is empty, its copies were marked with another key, or none of the originals
