@@ -135,6 +135,27 @@ TEST(Judge, ClaimsHoldOnUnmarkedMeshes)
     }
 }
 
+TEST(Judge, ALayerByItselfSaysAmongOthersWhatItSaysAlone)
+{
+    Stream stream = seeded_stream(8, "judge-test");
+    const Message expected = read_message("id:17");
+    const Bits word = encode(expected, 64);
+    for (const double deviation : {0.3, 0.8, 1.5, 2.0, 4.0, 1e9}) {
+        std::vector<LayerReading> layers;
+        for (const Method method : {Method::Waves, Method::Spectral, Method::LM}) {
+            layers.push_back({method, {}, Bits(64, 0)});
+            layers.back().readings.ways.emplace_back().soft =
+                deviation < 1e9 ? noisy(word, deviation, stream) : std::vector<double>(64, 0);
+        }
+        const Judgement together = judge(layers, 64, {expected});
+        for (std::size_t i = 0; i < layers.size(); ++i) {
+            const Judgement alone = judge({layers[i]}, 64, {expected});
+            EXPECT_NEAR(together.of_layer[i].log10_p, alone.best.log10_p, 1e-9) << deviation;
+            EXPECT_NEAR(together.match_of_layer[i], alone.match->log10_p, 1e-9) << deviation;
+        }
+    }
+}
+
 TEST(Judge, TheCandidateIsFound)
 {
     Stream stream = seeded_stream(5, "judge-test");

@@ -72,7 +72,7 @@ bool explains(const Bits& coded, const std::vector<double>& soft, int bits)
     return gain > 0;
 }
 
-/// The best message of all lengths that a reader with the key alone tries.
+/// The best message of all lengths that a reader with the key alone tries, in one view as if there were no other.
 Judgement::Read read(const Judgement::View& view, int carriers, Codes& codes)
 {
     Judgement::Read best;
@@ -82,7 +82,7 @@ Judgement::Read read(const Judgement::View& view, int carriers, Codes& codes)
     for (const double value : view.soft)
         loudest += std::abs(value);
     for (const Hypothesis& way : hypotheses(carriers)) {
-        const double share = std::log10(way.weight * view.weight);
+        const double share = std::log10(way.weight);
         if (log_any_message(tail.log10_p(loudest), way.bits) - share >= best.log10_p)
             continue; // not even if all signs were right
         const Code& code = codes(way.bits, way.kind);
@@ -120,13 +120,13 @@ public:
                                    [](const Judgement::View& view) { return view.blind; }) -
                       result.views.begin();
         for (std::size_t v = 0; v < result.views.size(); ++v) {
-            Judgement::View view = result.views[v];
+            const Judgement::View& view = result.views[v];
             if (!view.blind)
                 continue;
-            view.weight = 1 / kinds_;
             Judgement::Read found = read(view, carriers_, codes_);
             if (is_alone(view))
-                result.of_layer[view.layer] = {by_itself(found.log10_p), found.bits, found.kind};
+                result.of_layer[view.layer] = found;
+            found.log10_p += std::log10(kinds_);
             if (found.log10_p < result.best.log10_p) {
                 result.best = std::move(found);
                 result.view = v;
@@ -221,7 +221,7 @@ private:
         return static_cast<int>(view.soft.size()) == carriers_;
     }
 
-    /// log10 p of a layer without the share that all views of all layers have.
+    /// log10 p of a layer without the share that all views of all layers have. \param log10_p with it, not cut off at 0
     [[nodiscard]] double by_itself(double log10_p) const { return std::min(0.0, log10_p - std::log10(kinds_)); }
 
     void conclude(const Judgement::Match& match, std::size_t loudest)
