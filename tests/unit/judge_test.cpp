@@ -135,6 +135,36 @@ TEST(Judge, ClaimsHoldOnUnmarkedMeshes)
     }
 }
 
+TEST(Judge, BesideTheMessageThatIsThereTheNextReadsAsOftenAsItClaims)
+{
+    // Both layers carry one recipient's message; those of the others are drawn at random, as a ledger does.
+    Stream stream = seeded_stream(7, "judge-test");
+    const auto drawn = [&stream] { return read_message("id:" + std::to_string(stream.below(std::uint64_t{1} << 32))); };
+    constexpr int carriers = 64;
+    constexpr int files = 200;
+    int second[3] = {};
+    for (int file = 0; file < files; ++file) {
+        std::vector<Message> list;
+        while (list.size() < 9)
+            list.push_back(drawn());
+        const Message& there = list[file % list.size()];
+        std::vector<LayerReading> layers;
+        for (const Method method : {Method::LM, Method::Geodesic}) {
+            layers.push_back({method, {}, Bits(carriers, 0)});
+            std::vector<double>& soft = layers.back().readings.ways.emplace_back().soft;
+            for (const double value : noisy(encode(there, carriers), 0.3, stream))
+                soft.push_back(6 * value);
+        }
+        const double runner_up = judge(layers, carriers, list).match->runner_up;
+        for (int digits = 1; digits <= 2; ++digits)
+            second[digits] += runner_up <= -digits;
+    }
+    for (int digits = 1; digits <= 2; ++digits) {
+        const double nominal = files * std::pow(10, -digits);
+        EXPECT_LE(second[digits], nominal + 3 * std::sqrt(nominal)) << digits;
+    }
+}
+
 TEST(Judge, ALayerByItselfSaysAmongOthersWhatItSaysAlone)
 {
     Stream stream = seeded_stream(8, "judge-test");

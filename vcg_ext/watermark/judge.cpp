@@ -166,20 +166,26 @@ public:
     }
 
     /// Looks for each of a list, in the blind views, and by the count alone: the bound of Chernoff costs a search for
-    /// each.
+    /// each. Of the next best two layers are no independent witnesses: where both carry the best one's message, they
+    /// agree in what they say of anybody. So there a bit of two layers is one coin, as heavy as their sum.
     void match_list(const std::vector<Message>& expected)
     {
         const double many = std::log10(static_cast<double>(expected.size()));
-        std::vector<std::size_t> blind;
-        std::vector<SignTail> tails; // of these
+        struct Coins {
+            std::size_t view;
+            std::vector<double> soft; ///< one a bit
+            SignTail of_layers, of_bits;
+        };
+        std::vector<Coins> blind;
         for (std::size_t v = 0; v < result.views.size(); ++v)
-            if (result.views[v].blind) {
-                blind.push_back(v);
-                tails.emplace_back(result.views[v].soft);
+            if (const Judgement::View& view = result.views[v]; view.blind) {
+                const std::vector<double> soft = summed(view.soft, carriers_);
+                blind.push_back({v, soft, SignTail(view.soft), SignTail(soft)});
             }
         result.match_of_layer.assign(layers_.size(), 0);
         Judgement::Match match;
         double best = 1;
+        double best_as_next = 0;
         Bits best_coded;
         std::size_t loudest = result.view;
         for (std::size_t c = 0; c < expected.size(); ++c) {
@@ -189,25 +195,25 @@ public:
             if (coded == best_coded)
                 continue; // the same line again is no runner-up
             double p = 0;
+            double next = 0;
             std::size_t at = result.view;
-            for (std::size_t i = 0; i < blind.size(); ++i) {
-                const std::vector<double>& soft = result.views[blind[i]].soft;
-                const double here =
-                    tails[i].log10_count(agreement(repeated(coded, soft.size()), soft)) + std::log10(kinds_);
+            for (const Coins& coins : blind) {
+                const double total = agreement(coded, coins.soft);
+                next = std::min(next, coins.of_bits.log10_count(total) + std::log10(kinds_));
+                const double here = coins.of_layers.log10_count(total) + std::log10(kinds_);
                 if (here < p) {
                     p = here;
-                    at = blind[i];
+                    at = coins.view;
                 }
             }
             if (p < best) {
-                match.runner_up = std::min(0.0, best + many);
+                std::swap(best_as_next, next);
                 best = p;
                 best_coded = coded;
                 match.candidate = c;
                 loudest = at;
-            } else {
-                match.runner_up = std::min(match.runner_up, p + many);
             }
+            match.runner_up = std::min(match.runner_up, next + many);
         }
         match.log10_p = std::min(0.0, best + many);
         conclude(match, loudest);
