@@ -64,7 +64,7 @@ class EmbedReport(Report):
         return f"'{self.message}' is embedded: {self.change} To read it: {self.recipe}"
 
 
-BOUNDS = ("p_message", "p_value", "p_binomial", "presence")  # of probabilities
+BOUNDS = ("p_message", "p_value", "p_binomial", "presence", "runner_up_p", "rehearsal")  # of probabilities
 
 
 class Finding(IntEnum):

@@ -13,7 +13,7 @@ from doors import MESHES
 from meshmark import marking
 from meshmark.command.app import main
 from meshmark.command.output import show
-from meshmark.reports import DetectReport, Finding
+from meshmark.reports import DetectReport, EmbedReport, Finding
 
 KEY = "correct horse battery staple"
 ELEPHANT = MESHES / "elephant.off"
@@ -90,8 +90,17 @@ def test_what_is_shown_of_a_probability_is_rounded_up(capsys: pytest.CaptureFixt
     report = DetectReport(
         method="Layered", statistic="Mean", carriers=64, bits="", message="", trim=0, soft=[], samples=[],
         p_message=3.21e-9, verified=True, verdict="Found.", finding=Finding.PRESENT, p_value=1.0001e-12,
+        runner_up_p=0.50001,
     )  # fmt: skip
     show(report, as_json=False)
     said = capsys.readouterr().out
     assert "3.3e-9" in said
     assert "1.1e-12" in said
+    assert "0.51" in said
+    embedded = EmbedReport(
+        method="Layered", statistic="Mean", message="id:5", bits="", strength=1e-4, trim=0, carriers=64,
+        detection_ratio=1, max_displacement=0, mrms=0, mrms_relative=0, moved_vertices=0,
+        rehearsal={"noise": 2.00001e-19, "smooth": 0.60001},
+    )  # fmt: skip
+    show(embedded, as_json=False)
+    assert "noise 2.1e-19, smooth 0.61" in capsys.readouterr().out

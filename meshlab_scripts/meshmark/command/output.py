@@ -23,7 +23,7 @@ def show(report: Report, as_json: bool) -> None:
         return
     table = Table(box=None, show_header=False, pad_edge=False)
     for name, value in report.json().items():
-        text = rounded_up(value) if name in BOUNDS and isinstance(value, float) else _short(value)
+        text = _bounds(value) if name in BOUNDS else _short(value)
         if text and name not in ("warnings", "verdict", "change", "recipe", "survival"):
             table.add_row(f"[dim]{name}[/]", escape(text))
     console.print(table)
@@ -47,6 +47,13 @@ def busy(what: str) -> Iterator[None]:
     """Something moves while a single long step runs; nothing where the output is no terminal."""
     with errors.status(what):
         yield
+
+
+def _bounds(value: object) -> str:
+    """One, or several by name."""
+    if isinstance(value, dict):
+        return ", ".join(f"{name} {_bounds(one)}" for name, one in value.items())
+    return rounded_up(value) if isinstance(value, float) else _short(value)
 
 
 def _short(value: object) -> str:
