@@ -90,11 +90,13 @@ def test_what_is_shown_of_a_probability_is_rounded_up(capsys: pytest.CaptureFixt
     report = DetectReport(
         method="Layered", statistic="Mean", carriers=64, bits="", message="", trim=0, soft=[], samples=[],
         p_message=3.21e-9, verified=True, verdict="Found.", finding=Finding.PRESENT, p_value=1.0001e-12,
+        runner_up_p=0.50001,
     )  # fmt: skip
     show(report, as_json=False)
     said = capsys.readouterr().out
     assert "3.3e-9" in said
     assert "1.1e-12" in said
+    assert "0.51" in said
 
 
 def test_what_a_rehearsal_found_is_said_last_with_the_recipe(capsys: pytest.CaptureFixture[str]) -> None:

@@ -322,6 +322,27 @@ def test_what_reads_from_some_part_names_nobody(shops: tuple[Shop, Shop]) -> Non
             assert judge(replace(whole, readings=[other]), likes, ledger).answer == Answer.CANNOT_TELL
 
 
+def test_a_proven_message_names_who_has_it_and_no_neighbour(
+    shops: tuple[Shop, Shop], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Words of the code can be near each other: then who is looked for reads well where another one's message is."""
+    shop = shops[0]
+    with Ledger(shop.folder / "ledger.sqlite") as ledger:
+        ((_, messages),) = ledger.candidates().items()
+        names = [ledger.name(recipient) for recipient in messages]
+    for message, name in [(5, None), *zip(messages.values(), names, strict=True)]:
+        for candidate, near in enumerate(messages.values()):
+            if near == message:
+                continue
+            found = told(Finding.ANOTHER_MESSAGE, p_value=1e-12, candidate=candidate, runner_up_p=1).best.report
+            report = replace(found, message=f"id:{message}", p_message=1e-9, verified=True)
+            monkeypatch.setattr(marking, "detect", lambda *_, report=report, **__: report)
+            result = shop.trace(shop.models / "body0.stl")
+            assert result.recipient == name, result.sentence
+            assert result.answer == (Answer.NAME if name else Answer.CANNOT_TELL)
+            assert f"id:{message}" in result.sentence or name
+
+
 def test_a_reading_that_failed_is_not_nobodys(shops: tuple[Shop, Shop], monkeypatch: pytest.MonkeyPatch) -> None:
     def narrow(*_: object, **__: object) -> None:
         raise meshmark.Failed("Not enough memory.")

@@ -73,6 +73,9 @@ TEST(Evidence, EqualMagnitudesGiveTheBinomialTail)
                 << right << " of " << carriers;
     }
     EXPECT_NEAR(log_tail(std::vector<double>(1024, 2), 2048), 1024 * std::log10(0.5), 1e-9);
+    const SignTail two_layers(std::vector<double>(2048, 1));
+    for (const int right : {1060, 1150, 1300, 1600})
+        EXPECT_NEAR(two_layers.log10_count(2 * right - 2048), std::log10(binomial_tail(2048, right)), 1e-9) << right;
 }
 
 TEST(Evidence, ChernoffNeedsNoSignsAtItsEnds)

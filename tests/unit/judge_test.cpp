@@ -135,6 +135,57 @@ TEST(Judge, ClaimsHoldOnUnmarkedMeshes)
     }
 }
 
+TEST(Judge, BesideTheMessageThatIsThereTheNextReadsAsOftenAsItClaims)
+{
+    // Both layers carry one recipient's message; those of the others are drawn at random, as a ledger does.
+    Stream stream = seeded_stream(7, "judge-test");
+    const auto drawn = [&stream] { return read_message("id:" + std::to_string(stream.below(std::uint64_t{1} << 32))); };
+    constexpr int carriers = 64;
+    constexpr int files = 200;
+    int second[3] = {};
+    for (int file = 0; file < files; ++file) {
+        std::vector<Message> list;
+        while (list.size() < 9)
+            list.push_back(drawn());
+        const Message& there = list[file % list.size()];
+        std::vector<LayerReading> layers;
+        for (const Method method : {Method::LM, Method::Geodesic}) {
+            layers.push_back({method, {}, Bits(carriers, 0)});
+            std::vector<double>& soft = layers.back().readings.ways.emplace_back().soft;
+            for (const double value : noisy(encode(there, carriers), 0.3, stream))
+                soft.push_back(6 * value);
+        }
+        const double runner_up = judge(layers, carriers, list).match->runner_up;
+        for (int digits = 1; digits <= 2; ++digits)
+            second[digits] += runner_up <= -digits;
+    }
+    for (int digits = 1; digits <= 2; ++digits) {
+        const double nominal = files * std::pow(10, -digits);
+        EXPECT_LE(second[digits], nominal + 3 * std::sqrt(nominal)) << digits;
+    }
+}
+
+TEST(Judge, ALayerByItselfSaysAmongOthersWhatItSaysAlone)
+{
+    Stream stream = seeded_stream(8, "judge-test");
+    const Message expected = read_message("id:17");
+    const Bits word = encode(expected, 64);
+    for (const double deviation : {0.3, 0.8, 1.5, 2.0, 4.0, 1e9}) {
+        std::vector<LayerReading> layers;
+        for (const Method method : {Method::Waves, Method::Spectral, Method::LM}) {
+            layers.push_back({method, {}, Bits(64, 0)});
+            layers.back().readings.ways.emplace_back().soft =
+                deviation < 1e9 ? noisy(word, deviation, stream) : std::vector<double>(64, 0);
+        }
+        const Judgement together = judge(layers, 64, {expected});
+        for (std::size_t i = 0; i < layers.size(); ++i) {
+            const Judgement alone = judge({layers[i]}, 64, {expected});
+            EXPECT_NEAR(together.of_layer[i].log10_p, alone.best.log10_p, 1e-9) << deviation;
+            EXPECT_NEAR(together.match_of_layer[i], alone.match->log10_p, 1e-9) << deviation;
+        }
+    }
+}
+
 TEST(Judge, TheCandidateIsFound)
 {
     Stream stream = seeded_stream(5, "judge-test");

@@ -133,9 +133,9 @@ struct WaveMatch {
 /// min over ways of P(sum of +-l_k >= sum of l_k (-1)^b_k) / w, l_k = cos 2 pi y_k, w a weight of the way.
 ///
 /// Given all y, the signs of l_k against the bits are fair coins, because the mask is secret. So this holds for any
-/// mesh that does not carry these bits, be it marked with the same key or not; and weights may look at y: half of them
-/// is as before looking, half goes by weight / tail of wave_presence(), which is next to all for the way where phases
-/// gather. Not below 2^-K: what the phases' gathering itself is worth, wave_presence() says.
+/// mesh without a mark of this key (of one with another message they are where the two differ); and weights may look at
+/// y: half of them is as before looking, half goes by weight / tail of wave_presence(), which is next to all for the way
+/// where phases gather. Not below 2^-K: what the phases' gathering itself is worth, wave_presence() says.
 ///
 /// \pre the mask that `coded` was XOR-ed with is uniform and independent of the plan
 [[nodiscard]] WaveMatch wave_match(const WaveReading& reading, const WavePresence& presence, const Bits& coded);

@@ -36,9 +36,11 @@ SignTail::SignTail(const std::vector<double>& soft)
         slack_ += std::max(0.0, static_cast<double>(rounded.back()) - w * cells_);
     }
 
-    // Patterns by the weight of their wrong carriers. One counts 2^-100, since 2^1024 would be no double.
+    // Patterns by the weight of their wrong carriers. One counts 2^-100, since 2^1024 would be no double; of two layers
+    // as little as it can: then what is no double is more than a quarter of all.
+    const int one = count > 1024 ? 1022 : 100;
     std::vector<double> patterns(static_cast<std::size_t>(wrong_weight(0) * cells_ + slack_) + 1, 0.0);
-    patterns[0] = std::ldexp(1.0, -100);
+    patterns[0] = std::ldexp(1.0, -one);
     std::size_t reached = 0;
     for (const std::size_t step : rounded) {
         reached = std::min(reached + step, patterns.size() - 1);
@@ -47,7 +49,7 @@ SignTail::SignTail(const std::vector<double>& soft)
     }
     double sum = 0;
     for (const double p : patterns)
-        tail_.push_back(std::min(0.0, std::log10(sum += p) + (100 - count) * log10_2 + rounding));
+        tail_.push_back(std::min(0.0, std::log10(sum += p) + (one - count) * log10_2 + rounding));
 }
 
 double SignTail::wrong_weight(double total) const

@@ -72,7 +72,7 @@ bool explains(const Bits& coded, const std::vector<double>& soft, int bits)
     return gain > 0;
 }
 
-/// The best message of all lengths that a reader with the key alone tries.
+/// The best message of all lengths that a reader with the key alone tries, in one view as if there were no other.
 Judgement::Read read(const Judgement::View& view, int carriers, Codes& codes)
 {
     Judgement::Read best;
@@ -82,7 +82,7 @@ Judgement::Read read(const Judgement::View& view, int carriers, Codes& codes)
     for (const double value : view.soft)
         loudest += std::abs(value);
     for (const Hypothesis& way : hypotheses(carriers)) {
-        const double share = std::log10(way.weight * view.weight);
+        const double share = std::log10(way.weight);
         if (log_any_message(tail.log10_p(loudest), way.bits) - share >= best.log10_p)
             continue; // not even if all signs were right
         const Code& code = codes(way.bits, way.kind);
@@ -120,13 +120,13 @@ public:
                                    [](const Judgement::View& view) { return view.blind; }) -
                       result.views.begin();
         for (std::size_t v = 0; v < result.views.size(); ++v) {
-            Judgement::View view = result.views[v];
+            const Judgement::View& view = result.views[v];
             if (!view.blind)
                 continue;
-            view.weight = 1 / kinds_;
             Judgement::Read found = read(view, carriers_, codes_);
             if (is_alone(view))
-                result.of_layer[view.layer] = {by_itself(found.log10_p), found.bits, found.kind};
+                result.of_layer[view.layer] = found;
+            found.log10_p += std::log10(kinds_);
             if (found.log10_p < result.best.log10_p) {
                 result.best = std::move(found);
                 result.view = v;
@@ -166,20 +166,26 @@ public:
     }
 
     /// Looks for each of a list, in the blind views, and by the count alone: the bound of Chernoff costs a search for
-    /// each.
+    /// each. Of the next best two layers are no independent witnesses: where both carry the best one's message, they
+    /// agree in what they say of anybody. So there a bit of two layers is one coin, as heavy as their sum.
     void match_list(const std::vector<Message>& expected)
     {
         const double many = std::log10(static_cast<double>(expected.size()));
-        std::vector<std::size_t> blind;
-        std::vector<SignTail> tails; // of these
+        struct Coins {
+            std::size_t view;
+            std::vector<double> soft; ///< one a bit
+            SignTail of_layers, of_bits;
+        };
+        std::vector<Coins> blind;
         for (std::size_t v = 0; v < result.views.size(); ++v)
-            if (result.views[v].blind) {
-                blind.push_back(v);
-                tails.emplace_back(result.views[v].soft);
+            if (const Judgement::View& view = result.views[v]; view.blind) {
+                const std::vector<double> soft = summed(view.soft, carriers_);
+                blind.push_back({v, soft, SignTail(view.soft), SignTail(soft)});
             }
         result.match_of_layer.assign(layers_.size(), 0);
         Judgement::Match match;
         double best = 1;
+        double best_as_next = 0;
         Bits best_coded;
         std::size_t loudest = result.view;
         for (std::size_t c = 0; c < expected.size(); ++c) {
@@ -189,25 +195,25 @@ public:
             if (coded == best_coded)
                 continue; // the same line again is no runner-up
             double p = 0;
+            double next = 0;
             std::size_t at = result.view;
-            for (std::size_t i = 0; i < blind.size(); ++i) {
-                const std::vector<double>& soft = result.views[blind[i]].soft;
-                const double here =
-                    tails[i].log10_count(agreement(repeated(coded, soft.size()), soft)) + std::log10(kinds_);
+            for (const Coins& coins : blind) {
+                const double total = agreement(coded, coins.soft);
+                next = std::min(next, coins.of_bits.log10_count(total) + std::log10(kinds_));
+                const double here = coins.of_layers.log10_count(total) + std::log10(kinds_);
                 if (here < p) {
                     p = here;
-                    at = blind[i];
+                    at = coins.view;
                 }
             }
             if (p < best) {
-                match.runner_up = std::min(0.0, best + many);
+                std::swap(best_as_next, next);
                 best = p;
                 best_coded = coded;
                 match.candidate = c;
                 loudest = at;
-            } else {
-                match.runner_up = std::min(match.runner_up, p + many);
             }
+            match.runner_up = std::min(match.runner_up, next + many);
         }
         match.log10_p = std::min(0.0, best + many);
         conclude(match, loudest);
@@ -221,7 +227,7 @@ private:
         return static_cast<int>(view.soft.size()) == carriers_;
     }
 
-    /// log10 p of a layer without the share that all views of all layers have.
+    /// log10 p of a layer without the share that all views of all layers have. \param log10_p with it, not cut off at 0
     [[nodiscard]] double by_itself(double log10_p) const { return std::min(0.0, log10_p - std::log10(kinds_)); }
 
     void conclude(const Judgement::Match& match, std::size_t loudest)

@@ -38,7 +38,7 @@ struct Judgement {
     struct Match {
         std::size_t candidate = 0;
         double log10_p = 0;   ///< times the number of candidates
-        double runner_up = 0; ///< of the next, likewise
+        double runner_up = 0; ///< of the next, likewise; a bound beside a random message in all layers, too
     };
 
     std::vector<View> views;    ///< weights sum to 1 at most over all views, and over the blind ones

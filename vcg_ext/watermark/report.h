@@ -105,7 +105,7 @@ struct DetectReport {
     bool verified = false;             ///< p_message below 1e-6
     std::optional<double> presence;    ///< that such a mesh looks as marked, whatever the message; Waves and Layered
     std::optional<int> candidate;      ///< number of the best of a list of expected messages, from 0
-    std::optional<double> runner_up_p; ///< p_value of the next best of the list
+    std::optional<double> runner_up_p; ///< of the next best of the list, should the best one be there
     /// 0 not found, 1 present, 2 another message, 3 another key or setting, 4 no message
     Verdict finding = Verdict::NotFound;
     std::string verdict;                            ///< the same in plain words, with figures

@@ -15,7 +15,7 @@ from .. import host, marking
 from ..catalog.ledger import Model
 from ..errors import Refused
 from ..key import Key
-from ..reports import DetectReport
+from ..reports import DetectReport, Finding
 from ..settings import Settings
 from ..shape.pieces import Piece
 from .likeness import Likes, nearest
@@ -131,7 +131,6 @@ def _readings(attempts: list[Attempt], key: Key) -> Iterator[Reading]:
 
 
 def _read(attempt: Attempt, key: Key) -> Reading:
-    recipients = list(attempt.group)
     expected = [f"id:{message}" for message in attempt.group.values()]
     reading = Reading(attempt.piece.name, attempt.settings, attempt.original)
     with host.own_meshes() as meshes:
@@ -142,10 +141,17 @@ def _read(attempt: Attempt, key: Key) -> Reading:
             )
         except Refused as error:  # a piece that carries nothing says nothing
             return replace(reading, refusal=str(error))
-    return replace(
-        reading,
-        recipient=recipients[report.candidate or 0],  # of one alone the filter gives no number
-        p=1.0 if report.p_value is None else report.p_value,
-        runner_up_p=1.0 if report.runner_up_p is None else report.runner_up_p,
-        report=report,
-    )
+    recipient, p = _who(report, attempt.group)
+    runner_up_p = 1.0 if report.runner_up_p is None else report.runner_up_p
+    return replace(reading, recipient=recipient, p=p, runner_up_p=runner_up_p, report=report)
+
+
+def _who(report: DetectReport, group: dict[int, int]) -> tuple[int | None, float]:
+    """The best candidate, and its p. But where another message is proven, the one who has that: the best candidate's is
+    near to it, no more.
+    """
+    if report.finding == Finding.ANOTHER_MESSAGE:
+        owner = next((one for one, message in group.items() if report.message == f"id:{message}"), None)
+        return owner, 1.0 if owner is None else report.p_message
+    best = list(group)[report.candidate or 0]  # of one alone the filter gives no number
+    return best, 1.0 if report.p_value is None else report.p_value
