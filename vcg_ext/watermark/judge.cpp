@@ -166,26 +166,26 @@ public:
     }
 
     /// Looks for each of a list, in the blind views, and by the count alone: the bound of Chernoff costs a search for
-    /// each. Of the next best two layers are no independent witnesses: where both carry the best one's message, they
-    /// agree in what they say of anybody. So there a bit of two layers is one coin, as heavy as their sum.
+    /// each. Who asks whose message it is holds against each that it is another's; and two layers that carry another's
+    /// agree in what they say of anybody. So a bit of two layers is one coin here, as heavy as their sum.
     void match_list(const std::vector<Message>& expected)
     {
-        const double many = std::log10(static_cast<double>(expected.size()));
         struct Coins {
             std::size_t view;
             std::vector<double> soft; ///< one a bit
-            SignTail of_layers, of_bits;
+            SignTail tail;            ///< of these
         };
         std::vector<Coins> blind;
         for (std::size_t v = 0; v < result.views.size(); ++v)
             if (const Judgement::View& view = result.views[v]; view.blind) {
                 const std::vector<double> soft = summed(view.soft, carriers_);
-                blind.push_back({v, soft, SignTail(view.soft), SignTail(soft)});
+                blind.push_back({v, soft, SignTail(soft)});
             }
+        constexpr double even = 2; // words differ in an even number of bits, so what is near is up to twice as likely
+        const double many = std::log10(even * kinds_ * static_cast<double>(expected.size()));
         result.match_of_layer.assign(layers_.size(), 0);
         Judgement::Match match;
         double best = 1;
-        double best_as_next = 0;
         Bits best_coded;
         std::size_t loudest = result.view;
         for (std::size_t c = 0; c < expected.size(); ++c) {
@@ -195,25 +195,21 @@ public:
             if (coded == best_coded)
                 continue; // the same line again is no runner-up
             double p = 0;
-            double next = 0;
             std::size_t at = result.view;
-            for (const Coins& coins : blind) {
-                const double total = agreement(coded, coins.soft);
-                next = std::min(next, coins.of_bits.log10_count(total) + std::log10(kinds_));
-                const double here = coins.of_layers.log10_count(total) + std::log10(kinds_);
-                if (here < p) {
+            for (const Coins& coins : blind)
+                if (const double here = coins.tail.log10_count(agreement(coded, coins.soft)); here < p) {
                     p = here;
                     at = coins.view;
                 }
-            }
             if (p < best) {
-                std::swap(best_as_next, next);
+                match.runner_up = std::min(0.0, best + many);
                 best = p;
                 best_coded = coded;
                 match.candidate = c;
                 loudest = at;
+            } else {
+                match.runner_up = std::min(match.runner_up, p + many);
             }
-            match.runner_up = std::min(match.runner_up, next + many);
         }
         match.log10_p = std::min(0.0, best + many);
         conclude(match, loudest);

@@ -37,8 +37,8 @@ struct Judgement {
     /// Of a list of expected messages.
     struct Match {
         std::size_t candidate = 0;
-        double log10_p = 0;   ///< times the number of candidates
-        double runner_up = 0; ///< of the next, likewise; a bound beside a random message in all layers, too
+        double log10_p = 0;   ///< of a list times its length, and a bound beside another random message, too
+        double runner_up = 0; ///< of the next, likewise
     };
 
     std::vector<View> views;    ///< weights sum to 1 at most over all views, and over the blind ones

@@ -97,7 +97,8 @@ struct DetectReport {
     /// Carriers that match those of the expected message, over all; one that the surface says nothing of counts a half.
     std::optional<double> detection_ratio;
     /// With an expected message: a true upper bound of the probability that a mesh without a mark of this key, or
-    /// marked with another, matches as well by chance. Of a list: that any of its messages does.
+    /// marked with another, matches as well by chance. Of a list: that any of its messages does; and, drawn at random,
+    /// beside any other message of this key.
     std::optional<double> p_value;
     std::optional<double> p_binomial;  ///< the same by counting matches of what is read, as the literature does
     std::optional<bool> present;       ///< p_value below 1e-6, and no other message verified
@@ -105,7 +106,7 @@ struct DetectReport {
     bool verified = false;             ///< p_message below 1e-6
     std::optional<double> presence;    ///< that such a mesh looks as marked, whatever the message; Waves and Layered
     std::optional<int> candidate;      ///< number of the best of a list of expected messages, from 0
-    std::optional<double> runner_up_p; ///< of the next best of the list, should the best one be there
+    std::optional<double> runner_up_p; ///< p_value of the next best of the list
     /// 0 not found, 1 present, 2 another message, 3 another key or setting, 4 no message
     Verdict finding = Verdict::NotFound;
     std::string verdict;                            ///< the same in plain words, with figures

@@ -46,9 +46,9 @@ def write_page(out: Path, found: Path, result: Trace, ledger: Ledger, originals:
 
 def _meaning(result: Trace) -> list[str]:
     texts = [
-        f"p = {rounded_up(result.p)}: were this file unmarked, or marked with another key, the probability that the "
-        f"message of any of the {result.evidence.candidates:,} recipients could be read as well from it would be at "
-        f"most {odds(result.p)}. Somebody is named only below 1 in a million."
+        f"p = {rounded_up(result.p)}: were this file unmarked, marked with another key, or a copy of somebody who is "
+        f"not among the {result.evidence.candidates:,} recipients, the probability that the message of any of them "
+        f"could be read as well from it would be at most {odds(result.p)}. Somebody is named only below 1 in a million."
     ]
     if result.mixed:
         texts.append("More than one recipient's message reads beyond doubt: the file was made from several copies.")

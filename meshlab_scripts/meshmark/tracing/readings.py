@@ -132,6 +132,8 @@ def _readings(attempts: list[Attempt], key: Key) -> Iterator[Reading]:
 
 def _read(attempt: Attempt, key: Key) -> Reading:
     expected = [f"id:{message}" for message in attempt.group.values()]
+    if len(expected) == 1:
+        expected *= 2  # p of a list is a bound for copies of others, too, that of one message is not
     reading = Reading(attempt.piece.name, attempt.settings, attempt.original)
     with host.own_meshes() as meshes:
         meshes.add_mesh(pymeshlab.Mesh(attempt.piece.points, attempt.piece.faces))
@@ -147,11 +149,10 @@ def _read(attempt: Attempt, key: Key) -> Reading:
 
 
 def _who(report: DetectReport, group: dict[int, int]) -> tuple[int | None, float]:
-    """The best candidate, and its p. But where another message is proven, the one who has that: the best candidate's is
-    near to it, no more.
+    """The best candidate, and its p. But nobody where another message is proven: the best candidate's is near to it, no
+    more.
     """
     if report.finding == Finding.ANOTHER_MESSAGE:
-        owner = next((one for one, message in group.items() if report.message == f"id:{message}"), None)
-        return owner, 1.0 if owner is None else report.p_message
-    best = list(group)[report.candidate or 0]  # of one alone the filter gives no number
+        return None, 1.0
+    best = list(group)[(report.candidate or 0) % len(group)]
     return best, 1.0 if report.p_value is None else report.p_value
