@@ -4,9 +4,9 @@
 #include "../base/median.h"
 #include "../base/parallel.h"
 #include "../base/pi.h"
-#include "../geometry/wave_sums.h"
+#include "../geometry/wave_values.h"
 #include "../key/random.h"
-#include "waves.h"
+#include "wave_plan.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

@@ -7,7 +7,7 @@
 #include "../geometry/boundary.h"
 #include "../geometry/normals.h"
 #include "../geometry/umbrella.h"
-#include "../geometry/wave_sums.h"
+#include "../geometry/wave_values.h"
 #include "../key/random.h"
 
 #include <algorithm>
