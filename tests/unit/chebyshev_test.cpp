@@ -7,6 +7,7 @@
 #include "vcg_ext/base/parallel.h"
 #include "vcg_ext/carrier/patches.h"
 #include "vcg_ext/geometry/rings.h"
+#include "vcg_ext/method/patch_reading.h"
 #include "vcg_ext/method/spectral.h"
 #include "vcg_ext/watermark/secrets.h"
 #include "vcg_ext/watermark/watermark.h"

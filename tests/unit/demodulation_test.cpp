@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vcg_ext/carrier/demodulation.h"
 
-#include "vcg_ext/carrier/waves.h"
-#include "vcg_ext/geometry/wave_sums.h"
+#include "vcg_ext/carrier/wave_plan.h"
+#include "vcg_ext/geometry/wave_values.h"
 #include "vcg_ext/key/random.h"
 #include "vcg_ext/payload/evidence.h"
 

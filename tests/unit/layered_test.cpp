@@ -5,7 +5,6 @@
 #include "vcg_ext/watermark/watermark.h"
 
 #include <algorithm>
-#include <cmath>
 #include <gtest/gtest.h>
 
 using namespace vcg_ext;

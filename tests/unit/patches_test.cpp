@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vcg_ext/base/error.h"
 #include "vcg_ext/base/weld.h"
-#include "vcg_ext/carrier/patches.h"
+#include "vcg_ext/carrier/thesis_patches.h"
 
 #include "support/load.h"
 

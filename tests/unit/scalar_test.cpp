@@ -65,4 +65,28 @@ TEST(TargetScalars, AreTheSameStepByStepAndAtOnce)
     }
 }
 
+TEST(CarrierTargets, LieOnTheSideOfTheBitThatThePlanGivesThem)
+{
+    Plan plan = plan_of(2);
+    plan.order = {1, 0}; // carrier 1 holds the first bit
+    const CarrierTargets targets({1, 0}, plan, 0.2);
+    EXPECT_EQ(targets.now(), (std::vector<double>{0.5 - 0.2, 0.5 + 0.2}));
+    // A mean of .3 is right by all of alpha, and one of .4 wrong by half of it; three quarters of it are enough.
+    const std::vector<double> margins = targets.margins({2, 0, 0.5, {0, 1}, {0.3, 0.4}});
+    EXPECT_NEAR(margins[0], 0.2 - 0.15, 1e-12);
+    EXPECT_NEAR(margins[1], -0.1 - 0.15, 1e-12);
+    EXPECT_EQ(targets.wrong(margins), 1);
+}
+
+TEST(CarrierTargets, APushThatBroughtHalfIsFollowedByOneTwiceAsFarAsWhatIsMissing)
+{
+    CarrierTargets targets({1, 1}, plan_of(2), 0.1);
+    targets.push({-0.03, 0.01});
+    EXPECT_NEAR(targets.now()[0], 0.6 + 0.055, 1e-12); // up to alpha: the quarter beyond what is enough, too
+    EXPECT_EQ(targets.now()[1], 0.6);
+    targets.push({-0.03 + 0.055 / 2, 0.01});
+    EXPECT_NEAR(targets.now()[0], 0.655 + 2 * 0.0275, 1e-12);
+    EXPECT_EQ(targets.now()[1], 0.6);
+}
+
 } // namespace

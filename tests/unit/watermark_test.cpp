@@ -17,7 +17,6 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
-#include <numeric>
 
 using namespace vcg_ext;
 

@@ -3,7 +3,7 @@
 
 #include "support/load.h"
 #include "support/shapes.h"
-#include "vcg_ext/geometry/wave_sums.h"
+#include "vcg_ext/geometry/solid_transform.h"
 #include "vcg_ext/method/wave_embedding.h"
 
 #include <gtest/gtest.h>

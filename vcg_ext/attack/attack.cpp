@@ -23,7 +23,6 @@
 #include "sqrt3.h"
 #include "subdivide.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace vcg_ext {

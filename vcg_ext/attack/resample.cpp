@@ -6,7 +6,6 @@
 #include "remesh.h"
 #include "simplify.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 

@@ -25,19 +25,19 @@ struct Patches {
 /// Cuts a surface into layers * columns patches of equal area (thesis 3.3).
 ///
 /// All cuts are quantiles of area, of a copy that Taubin passes have smoothed: neither noise, which swells the area of
-/// fine regions, nor a single vertex at the end of an axis moves them. Holes count with the area of their fans. First `trim` of the area is left out at both
-/// ends of axis 1; then come layers of equal area along axis 2, then in each layer columns of equal area along axis 1.
+/// fine regions, nor a single vertex at the end of an axis moves them. Holes count with the area of their fans. First
+/// `trim` of the area is left out at both ends of axis 1; then come layers of equal area along axis 2, then in each layer
+/// columns of equal area along axis 1.
 /// \param trim in [0, 0.5)
 /// \throw Error where the surface has no area, and so no frame
 [[nodiscard]] Patches equal_area_patches(const Points& vertices, const SolidTopology& topology, const EdgeGraph& graph,
                                          const Frame& frame, int layers, int columns, double trim);
 
-/// Cuts as the thesis prints it: trim (3.6) and layers (3.9) by range, then Algorithm 1, vertex by vertex along axis 1.
-/// Its one slip is put right: the leftover at a layer's end takes no number from the next layer.
-/// \return `layers` is 1 and `columns` the number of full patches, which may differ from `count` by a few
-/// \throw Error where the surface has no area, and so no frame
-[[nodiscard]] Patches thesis_patches(const Points& points, const SolidTopology& topology, const Frame& frame,
-                                     int layers, int count, double trim);
+/// \throw Error where the surface had no area, and so has no frame
+void check_frame(const Frame& frame);
+
+/// Points along a frame's axes, about its centre.
+[[nodiscard]] Points in_frame(Points points, const Frame& frame);
 
 /// Per patch its vertices, ascending.
 [[nodiscard]] std::vector<std::vector<int>> patch_vertices(const Patches& patches);

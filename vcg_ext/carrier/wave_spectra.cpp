@@ -2,7 +2,7 @@
 #include "wave_spectra.h"
 
 #include "../base/parallel.h"
-#include "../geometry/wave_sums.h"
+#include "../geometry/solid_transform.h"
 #include "wave_flows.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "waves.h"
+#include "wave_plan.h"
 
 #include <array>
 #include <deque>

@@ -3,7 +3,6 @@
 
 #include "../base/parallel.h"
 
-#include <algorithm>
 #include <cstdint>
 
 namespace vcg_ext {

@@ -5,7 +5,6 @@
 #include "normals.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace vcg_ext {
 

@@ -13,6 +13,13 @@ struct Foot {
     bool on_rim = false; ///< at the surface's border: what is beyond it is missing here, and not displaced
 };
 
+/// What a face's corners have, at a place on it. \param of_vertices of the surface   \param weights of the corners
+template <class Value>
+[[nodiscard]] Value at_foot(const std::vector<Value>& of_vertices, const Triangle& t, const Point& weights)
+{
+    return weights[0] * of_vertices[t[0]] + weights[1] * of_vertices[t[1]] + weights[2] * of_vertices[t[2]];
+}
+
 /// A surface to whose faces points of another are brought. Built once; may be asked by many threads at once.
 class FootSearch {
 public:

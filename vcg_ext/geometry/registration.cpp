@@ -3,6 +3,7 @@
 
 #include "../base/trimmed_mean.h"
 #include "edge_graph.h"
+#include "feature_poses.h"
 #include "icp.h"
 #include "size.h"
 #include "umbrella.h"
@@ -10,7 +11,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <utility>
 
 namespace vcg_ext {
 
@@ -92,6 +93,12 @@ bool differs(const Eigen::Affine3d& a, const Eigen::Affine3d& b)
         return Eigen::Matrix3d(pose.linear() / std::cbrt(std::abs(pose.linear().determinant())));
     };
     return (unit(a) - unit(b)).cwiseAbs().maxCoeff() > 0.3;
+}
+
+/// Whether the first of these fits.
+bool fits(const std::vector<Scored>& found)
+{
+    return !found.empty() && found.front().fits();
 }
 
 /// The hypotheses that fit best after some polishing; the best first.
@@ -201,6 +208,62 @@ Scored stretched(const FootSearch& original, double size, const SurfaceSamples& 
     return other.fits() ? other : found;
 }
 
+/// On the original after some rounds of smoothing: of the first number of them on which the best one fits, or none.
+std::vector<Scored> polished_on_smoothed(const FootSearch& original, double size, const SurfaceSamples& samples,
+                                         const std::vector<Hypothesis>& hypotheses, const Progress& progress)
+{
+    const EdgeGraph graph = edge_graph(original.surface());
+    Surface smoothed = original.surface();
+    int rounds = 0;
+    for (const int wanted : {10, 50}) {
+        report(progress, 20 + wanted / 5, "Registering");
+        smoothed.points = umbrella_steps(graph, std::move(smoothed.points), 0.5, wanted - rounds);
+        rounds = wanted;
+        std::vector<Scored> found = polished(FootSearch(smoothed), size, samples, hypotheses);
+        if (fits(found))
+            return found;
+    }
+    return {};
+}
+
+/// Poses in the order that Registrar says, until one fits; the best first. \param by_scales see Registrar
+std::vector<Scored> best_poses(const FootSearch& original, const Likeness& likeness, double size, bool by_scales,
+                               const Surface& surface, const SurfaceSamples& samples, const Progress& progress)
+{
+    report(progress, 0, "Registering");
+    std::vector<Hypothesis> hypotheses{{"identity", Eigen::Affine3d::Identity()}};
+    std::vector<Scored> found = polished(original, size, samples, hypotheses);
+    if (found.empty() || !(found.front().score < sure)) {
+        add_poses("volume", solid_stand(surface), likeness.solid, hypotheses);
+        add_poses("surface", surface_stand(surface), likeness.surface, hypotheses);
+        report(progress, 10, "Registering");
+        found = polished(original, size, samples, hypotheses);
+    }
+    if (!by_scales && !fits(found))
+        if (std::vector<Scored> other = polished_on_smoothed(original, size, samples, hypotheses, progress);
+            !other.empty())
+            found = std::move(other);
+    if (!fits(found)) {
+        std::vector<Scored> other = by_features(original, likeness, surface, samples, within(progress, 35, 90));
+        if (!other.empty() && (found.empty() || other.front().score < found.front().score))
+            found = std::move(other);
+    }
+    return found;
+}
+
+/// The best pose, and others that fit about as well and hold the body in another way, as of symmetric bodies.
+std::vector<Scored> rivals_of(const std::vector<Scored>& found)
+{
+    const double close = 2 * found.front().score + 0.03;
+    std::vector<Scored> rivals{found.front()};
+    for (const Scored& one : found)
+        if (one.score < close && static_cast<int>(rivals.size()) <= most_alternatives &&
+            std::all_of(rivals.begin(), rivals.end(),
+                        [&](const Scored& rival) { return differs(rival.pose, one.pose); }))
+            rivals.push_back(one);
+    return rivals;
+}
+
 } // namespace
 
 double Registration::scale() const
@@ -253,35 +316,8 @@ void Registrar::follow(const Surface& surface, Registration& registration) const
 Registration Registrar::operator()(const Surface& surface, const Progress& progress) const
 {
     const SurfaceSamples samples = sample_surface(surface, samples_to_refine, "registration");
-    report(progress, 0, "Registering");
-    std::vector<Hypothesis> hypotheses{{"identity", Eigen::Affine3d::Identity()}};
-    std::vector<Scored> found = polished(original_, size_, samples, hypotheses);
-    if (found.empty() || !(found.front().score < sure)) {
-        add_poses("volume", solid_stand(surface), likeness_.solid, hypotheses);
-        add_poses("surface", surface_stand(surface), likeness_.surface, hypotheses);
-        report(progress, 10, "Registering");
-        found = polished(original_, size_, samples, hypotheses);
-    }
-    if (!impression_ && (found.empty() || !found.front().fits())) {
-        const EdgeGraph graph = edge_graph(original_.surface());
-        Surface smoothed = original_.surface();
-        int rounds = 0;
-        for (const int wanted : {10, 50}) {
-            report(progress, 20 + wanted / 5, "Registering");
-            smoothed.points = umbrella_steps(graph, std::move(smoothed.points), 0.5, wanted - rounds);
-            rounds = wanted;
-            const std::vector<Scored> other = polished(FootSearch(smoothed), size_, samples, hypotheses);
-            if (!other.empty() && other.front().fits()) {
-                found = other;
-                break;
-            }
-        }
-    }
-    if (found.empty() || !found.front().fits()) {
-        const std::vector<Scored> other = by_features(original_, likeness_, surface, samples, within(progress, 35, 90));
-        if (!other.empty() && (found.empty() || other.front().score < found.front().score))
-            found = other;
-    }
+    std::vector<Scored> found =
+        best_poses(original_, likeness_, size_, impression_ != nullptr, surface, samples, progress);
     Registration result;
     if (found.empty())
         return result;
@@ -295,13 +331,7 @@ Registration Registrar::operator()(const Surface& surface, const Progress& progr
     }
 
     report(progress, 90, "Registering");
-    const double close = 2 * found.front().score + 0.03;
-    std::vector<Scored> rivals{found.front()};
-    for (const Scored& one : found)
-        if (one.score < close && static_cast<int>(rivals.size()) <= most_alternatives &&
-            std::all_of(rivals.begin(), rivals.end(),
-                        [&](const Scored& rival) { return differs(rival.pose, one.pose); }))
-            rivals.push_back(one);
+    const std::vector<Scored> rivals = rivals_of(found);
     for (const Scored& rival : rivals) {
         Registration one;
         one.pose = rival.pose;

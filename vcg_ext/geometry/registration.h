@@ -45,7 +45,7 @@ public:
     Registrar(const FootSearch& scales, const Impression& impression);
 
     /// Tries in this order, until one fits: the surface as it lies; principal axes of solid and of surface, each with
-    /// all signs; the same against the original after 10 and 50 rounds of smoothing; local shapes (features.h).
+    /// all signs; the same against the original after 10 and 50 rounds of smoothing; local shapes (feature_poses.h).
     ///
     /// Each is refined by pairs of a sample and the plane of the original's face next to it, weighted as (1 + (r / 2
     /// s)^2)^-2 with s from the median: missing parts cost nothing, since samples are the surface's, and the planes are

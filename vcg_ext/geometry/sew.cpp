@@ -2,7 +2,6 @@
 #include "sew.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numeric>

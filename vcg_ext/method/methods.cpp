@@ -9,7 +9,6 @@
 #include "spectral.h"
 #include "waves.h"
 
-#include <optional>
 #include <utility>
 
 namespace vcg_ext {
@@ -31,137 +30,96 @@ StrengthRange squash(Statistic /*statistic*/)
     return {15, 2, 1000};
 }
 
+MethodRow row_for(Method method, const char* name, const char* hint, const char* secret)
+{
+    return {method, name, hint, secret, {{method, 0}}};
+}
+
+MethodRow layered()
+{
+    MethodRow row = row_for(Method::Layered, "Layered", "Waves and another on top: survives the most", "");
+    row.layers = {{Method::Waves, 0}, {Method::Spectral, 4}, {Method::LM, 0.1}};
+    row.is_smooth = true;
+    row.number = number_by_rings;
+    row.strength = displacement;
+    return row;
+}
+
+MethodRow waves()
+{
+    MethodRow row = row_for(Method::Waves, "Waves", "a smooth field: survives remeshing and smoothing", "waves");
+    row.is_smooth = true;
+    row.strength = displacement;
+    row.plan = plan_waves;
+    row.find_frame = find_waves;
+    row.read = read_by_waves;
+    row.find_copy = find_wave_copy;
+    row.read_copy = read_wave_copy;
+    row.certify = certify_waves;
+    row.read_certified = read_certified_waves;
+    row.embed = embed_by_waves;
+    return row;
+}
+
+template <Radial way>
+MethodRow norms(Method method, const char* name, const char* hint)
+{
+    MethodRow row = row_for(method, name, hint, "norms");
+    row.has_statistic = true;
+    row.unmarked_strength = 1.5;
+    row.strength = alpha;
+    row.plan = plan_norms;
+    row.find_frame = find_norms;
+    row.read = read_norms;
+    row.read_copy = read_norms_copy;
+    row.certify = certify_norms;
+    row.read_certified = read_certified_norms;
+    row.embed = embed_norms<way>;
+    return row;
+}
+
+MethodRow geodesic()
+{
+    MethodRow row = row_for(Method::Geodesic, "Geodesic", "distances along the surface", "strips");
+    row.has_statistic = true;
+    row.number = number_by_curve;
+    row.unmarked_strength = 1.5;
+    row.strength = alpha;
+    row.plan = plan_geodesic;
+    row.find_frame = find_geodesic;
+    row.read = read_geodesic;
+    row.find_copy = find_geodesic_copy;
+    row.read_copy = read_geodesic_copy;
+    row.embed = embed_geodesic;
+    return row;
+}
+
+MethodRow spectral()
+{
+    MethodRow row = row_for(Method::Spectral, "Spectral", "survives noise and smoothing", "patches");
+    row.number = number_by_rings;
+    row.strength = squash;
+    row.plan = plan_spectral;
+    row.find_frame = find_spectral;
+    row.read = read_spectral;
+    row.find_copy = find_spectral_copy;
+    row.read_copy = read_spectral_copy;
+    row.embed = embed_spectral;
+    return row;
+}
+
 } // namespace
 
 const std::vector<MethodRow>& all_methods()
 {
     static const std::vector<MethodRow> methods = {
-        {Method::Layered,
-         "Layered",
-         "Waves and another on top: survives the most",
-         "",
-         {{Method::Waves, 0}, {Method::Spectral, 4}, {Method::LM, 0.1}},
-         false,
-         true,
-         number_by_rings,
-         0,
-         displacement,
-         nullptr,
-         nullptr,
-         nullptr,
-         nullptr,
-         nullptr,
-         nullptr,
-         nullptr,
-         nullptr},
-        {Method::Waves,
-         "Waves",
-         "a smooth field: survives remeshing and smoothing",
-         "waves",
-         {{Method::Waves, 0}},
-         false,
-         true,
-         nullptr,
-         0,
-         displacement,
-         plan_waves,
-         find_waves,
-         read_by_waves,
-         find_wave_copy,
-         read_wave_copy,
-         certify_waves,
-         read_certified_waves,
-         embed_by_waves},
-        {Method::LM,
-         "L-M",
-         "vertex norms, the least visible",
-         "norms",
-         {{Method::LM, 0}},
-         true,
-         false,
-         nullptr,
-         1.5,
-         alpha,
-         plan_norms,
-         find_norms,
-         read_norms,
-         nullptr,
-         read_norms_copy,
-         certify_norms,
-         read_certified_norms,
-         embed_norms<Radial::Sphere>},
-        {Method::QSP,
-         "QSP",
-         "vertex norms, to compare",
-         "norms",
-         {{Method::QSP, 0}},
-         true,
-         false,
-         nullptr,
-         1.5,
-         alpha,
-         plan_norms,
-         find_norms,
-         read_norms,
-         nullptr,
-         read_norms_copy,
-         certify_norms,
-         read_certified_norms,
-         embed_norms<Radial::Selective>},
-        {Method::Cho,
-         "Cho",
-         "vertex norms, the fastest, more visible",
-         "norms",
-         {{Method::Cho, 0}},
-         true,
-         false,
-         nullptr,
-         1.5,
-         alpha,
-         plan_norms,
-         find_norms,
-         read_norms,
-         nullptr,
-         read_norms_copy,
-         certify_norms,
-         read_certified_norms,
-         embed_norms<Radial::Straight>},
-        {Method::Geodesic,
-         "Geodesic",
-         "distances along the surface",
-         "strips",
-         {{Method::Geodesic, 0}},
-         true,
-         false,
-         number_by_curve,
-         1.5,
-         alpha,
-         plan_geodesic,
-         find_geodesic,
-         read_geodesic,
-         find_geodesic_copy,
-         read_geodesic_copy,
-         nullptr,
-         nullptr,
-         embed_geodesic},
-        {Method::Spectral,
-         "Spectral",
-         "survives noise and smoothing",
-         "patches",
-         {{Method::Spectral, 0}},
-         false,
-         false,
-         number_by_rings,
-         0,
-         squash,
-         plan_spectral,
-         find_spectral,
-         read_spectral,
-         find_spectral_copy,
-         read_spectral_copy,
-         nullptr,
-         nullptr,
-         embed_spectral},
+        layered(),
+        waves(),
+        norms<Radial::Sphere>(Method::LM, "L-M", "vertex norms, the least visible"),
+        norms<Radial::Selective>(Method::QSP, "QSP", "vertex norms, to compare"),
+        norms<Radial::Straight>(Method::Cho, "Cho", "vertex norms, the fastest, more visible"),
+        geodesic(),
+        spectral(),
     };
     return methods;
 }

@@ -4,13 +4,18 @@
 #include "../base/parallel.h"
 #include "../placement/histogram.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
 namespace vcg_ext {
 
 namespace {
+
+/// A carrier this far out, as a part of alpha, is strong enough; nearer ones are pushed again.
+constexpr double enough = 0.75;
 
 /// Part of a carrier that rounding to float can move a value by, with room to spare.
 double float_guard(const Points& points, const Carriers& carriers)
@@ -110,12 +115,39 @@ void TargetScalars::map(int k, double target)
             scalars_[vertices_[first_[k] + i]] = cover_.scalar(k, mapped[i]);
 }
 
-std::vector<char> bits_by_carrier(const Bits& coded, const Plan& plan)
+CarrierTargets::CarrierTargets(const Bits& coded, const Plan& plan, double alpha)
+    : bits_(coded.size()), statistic_(plan.options.statistic), alpha_(alpha), targets_(coded.size()),
+      pushed_(coded.size(), 0), last_(coded.size(), 0)
 {
-    std::vector<char> bits(coded.size());
     for (std::size_t i = 0; i < coded.size(); ++i)
-        bits[plan.order[i]] = static_cast<char>(coded[i]);
-    return bits;
+        bits_[plan.order[i]] = static_cast<char>(coded[i]);
+    for (std::size_t k = 0; k < targets_.size(); ++k)
+        targets_[k] = threshold(statistic_) + side(k) * alpha;
+}
+
+std::vector<double> CarrierTargets::margins(const Carriers& read) const
+{
+    const double middle = threshold(statistic_);
+    std::vector<double> margins = statistics(read, statistic_);
+    for (std::size_t k = 0; k < margins.size(); ++k)
+        margins[k] = side(k) * (margins[k] - middle) - enough * alpha_;
+    return margins;
+}
+
+void CarrierTargets::push(const std::vector<double>& margins)
+{
+    for (std::size_t k = 0; k < targets_.size(); ++k) {
+        const double share = pushed_[k] > 0 ? std::clamp((margins[k] - last_[k]) / pushed_[k], 0.25, 1.0) : 1;
+        const double missing = margins[k] < 0 ? (1 - enough) * alpha_ - margins[k] : 0;
+        const double target = std::clamp(targets_[k] + side(k) * missing / share, 0.02, 0.98);
+        pushed_[k] = std::abs(target - std::exchange(targets_[k], target));
+    }
+    last_ = margins;
+}
+
+std::ptrdiff_t CarrierTargets::wrong(const std::vector<double>& margins) const
+{
+    return std::count_if(margins.begin(), margins.end(), [this](double margin) { return margin <= -enough * alpha_; });
 }
 
 int count_of_filled(int count, const std::function<Carriers(int)>& cut)
@@ -132,6 +164,15 @@ int count_of_filled(int count, const std::function<Carriers(int)>& cut)
         (none_empty(middle) ? filled : empty) = middle;
     }
     return filled;
+}
+
+int checked_samples(const Carriers& carriers, const std::function<Carriers(int)>& cut)
+{
+    const std::vector<int> held = samples(carriers);
+    if (const auto empty = std::count(held.begin(), held.end(), 0); empty > 0)
+        throw DoesNotFit(std::to_string(empty) + " of the " + std::to_string(held.size()) + " carriers hold no vertex.",
+                         count_of_filled(1, cut));
+    return *std::min_element(held.begin(), held.end());
 }
 
 Storing storing(const Points& points, const Carriers& carriers, Storage storage)

@@ -5,7 +5,8 @@
 #include "closed_loop.h"
 #include "plan.h"
 
-#include <cmath>
+#include <algorithm>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -48,12 +49,45 @@ private:
     std::vector<double> scalars_;
 };
 
-/// The bits of a message by the carrier that the plan gives them.
-[[nodiscard]] std::vector<char> bits_by_carrier(const Bits& coded, const Plan& plan);
+/// The statistic that each carrier is to have: alpha beyond the threshold, on the side of its bit, and further out where
+/// it does not read as it should.
+class CarrierTargets {
+public:
+    /// \param coded as many bits as carriers
+    CarrierTargets(const Bits& coded, const Plan& plan, double alpha);
+
+    /// Per carrier.
+    [[nodiscard]] const std::vector<char>& bits() const { return bits_; }
+    [[nodiscard]] const std::vector<double>& now() const { return targets_; }
+
+    /// Per carrier how far it reads beyond what is enough; negative where it is to be pushed.
+    [[nodiscard]] std::vector<double> margins(const Carriers& read) const;
+
+    /// Pushes carriers by what they lack. Where folds hold vertices back, a push brings but a share of what it asks for;
+    /// the next one reckons with that.
+    void push(const std::vector<double>& margins);
+
+    /// How many carriers read the wrong bit.
+    [[nodiscard]] std::ptrdiff_t wrong(const std::vector<double>& margins) const;
+
+private:
+    [[nodiscard]] double side(std::size_t k) const { return bits_[k] ? 1 : -1; }
+
+    std::vector<char> bits_;
+    Statistic statistic_;
+    double alpha_;
+    std::vector<double> targets_;
+    std::vector<double> pushed_; ///< by the last push
+    std::vector<double> last_;   ///< margins before it
+};
 
 /// Carriers, as many as can be found by doubling `count` and then halving the interval, of which none is empty.
 /// \param cut `cut(count)`: the cover's carriers, were there so many
 [[nodiscard]] int count_of_filled(int count, const std::function<Carriers(int)>& cut);
+
+/// Vertices in the poorest carrier. \param cut see count_of_filled()
+/// \throw DoesNotFit where one is empty
+[[nodiscard]] int checked_samples(const Carriers& carriers, const std::function<Carriers(int)>& cut);
 
 /// What storing does to the positions of this cover, and the part of a carrier that values must keep from its ends for
 /// it.
@@ -65,9 +99,6 @@ struct Storing {
 
 /// \throw Error where float is coarser than the carriers and `storage` is Float
 [[nodiscard]] Storing storing(const Points& points, const Carriers& carriers, Storage storage);
-
-/// A carrier this far out, as a part of alpha, is strong enough; nearer ones are pushed again.
-constexpr double enough = 0.75;
 
 /// The closed loop of the methods that have one scalar per vertex: map the histogram of every carrier, place, round as
 /// stored, read blind; carriers that read wrong or weak get a target further out and another round.
@@ -89,79 +120,50 @@ Marking embed_scalar(Scalar& scalar, const Cover& cover, const Plan& plan, const
                      const PlacementOptions& options, const Progress& progress)
 {
     Marking marking;
-    const Statistic statistic = plan.options.statistic;
     const int count = plan.options.bits;
     scalar.aim(scalar.find(cover.points));
     Carriers carriers = scalar.cut(count);
-    const std::vector<int> held = samples(carriers);
-    marking.samples_min = *std::min_element(held.begin(), held.end());
     const auto cut = [&scalar](int wanted) { return scalar.cut(wanted); };
-    if (marking.samples_min == 0)
-        throw DoesNotFit(std::to_string(std::count(held.begin(), held.end(), 0)) + " of the " + std::to_string(count) +
-                             " carriers hold no vertex.",
-                         count_of_filled(1, cut));
+    marking.samples_min = checked_samples(carriers, cut);
     marking.capacity = count_of_filled(count, cut);
     const Storing store = storing(cover.points, carriers, options.storage);
     if (store.warning)
         marking.warnings.push_back(*store.warning);
     const double guard = std::max({store.guard, scalar.guard, 1e-6});
 
-    const std::vector<char> bits = bits_by_carrier(coded, plan);
-    const auto side = [&bits](int k) { return bits[k] ? 1.0 : -1.0; };
-    const double alpha = options.strength;
-    const double middle = threshold(statistic);
-    std::vector<double> targets(count);
-    for (int k = 0; k < count; ++k)
-        targets[k] = middle + side(k) * alpha;
-    const auto margins_of = [&](const Carriers& read) {
-        std::vector<double> margins = statistics(read, statistic);
-        for (int k = 0; k < count; ++k)
-            margins[k] = side(k) * (margins[k] - middle) - enough * alpha;
-        return margins;
-    };
-    const std::vector<double> before = margins_of(carriers);
-    if (*std::min_element(before.begin(), before.end()) >= 0) { // the mark is there already
+    CarrierTargets targets(coded, plan, options.strength);
+    std::vector<double> margins = targets.margins(carriers);
+    const auto worst = [&margins] { return *std::min_element(margins.begin(), margins.end()); };
+    if (worst() >= 0) { // the mark is there already
         marking.kept.points = cover.points;
         return marking;
     }
 
     std::optional<TargetScalars> aims;
-    const auto aim_at_targets = [&] { aims.emplace(carriers, scalar.mobility(), bits, statistic, guard); };
+    const auto aim_at_targets = [&] {
+        aims.emplace(carriers, scalar.mobility(), targets.bits(), plan.options.statistic, guard);
+    };
     aim_at_targets();
-    // Where folds hold vertices back, a push brings but a share of what it asks for; the next one reckons with that.
-    std::vector<double> pushed(count, 0);
-    std::vector<double> last(count, 0); // margins
     Proposal placed;
-    std::vector<double> margins;
     const auto place_and_read = [&](int round) {
         placed = {}; // before the next one takes as much
-        placed = scalar.place(aims->at(targets));
+        placed = scalar.place(aims->at(targets.now()));
         const Points stored = store.round(placed.points);
         const auto frame = scalar.find(stored);
-        margins = margins_of(scalar.read(stored, frame));
-        const double worst = *std::min_element(margins.begin(), margins.end());
-        if (round == 1) { // later rounds push single carriers in a frame that holds still
-            if (worst < 0) {
-                scalar.aim(scalar.on_cover(stored, frame));
-                carriers = scalar.cut(count);
-                aim_at_targets();
-            }
-            return worst;
+        margins = targets.margins(scalar.read(stored, frame));
+        if (round > 1) { // single carriers, in a frame that holds still
+            targets.push(margins);
+        } else if (worst() < 0) {
+            scalar.aim(scalar.on_cover(stored, frame));
+            carriers = scalar.cut(count);
+            aim_at_targets();
         }
-        for (int k = 0; k < count; ++k) {
-            const double share = pushed[k] > 0 ? std::clamp((margins[k] - last[k]) / pushed[k], 0.25, 1.0) : 1;
-            const double missing = margins[k] < 0 ? (1 - enough) * alpha - margins[k] : 0;
-            const double target = std::clamp(targets[k] + side(k) * missing / share, 0.02, 0.98);
-            pushed[k] = std::abs(target - std::exchange(targets[k], target));
-        }
-        last = margins;
-        return worst;
+        return worst();
     };
     std::ptrdiff_t wrong = 0;
     marking.rounds = closed_loop(options.max_rounds, "Placing vertices", progress, place_and_read, [&] {
         marking.kept = std::move(placed);
-        wrong =
-            std::count_if(margins.begin(), margins.end(), [alpha](double margin) { return margin <= -enough * alpha; });
+        wrong = targets.wrong(margins);
     });
     if (wrong > 0)
         throw DoesNotFit(std::to_string(wrong) + " of the " + std::to_string(count) +

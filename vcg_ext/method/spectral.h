@@ -1,35 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "../base/progress.h"
-#include "../carrier/patches.h"
 #include "../carrier/reading.h"
 #include "../payload/message.h"
 #include "../placement/cover.h"
-#include "../placement/patch_shape.h"
 #include "copy.h"
 #include "plan.h"
 
 namespace vcg_ext {
-
-/// What the detector sees of a surface's patches.
-struct PatchReading {
-    Frame frame;
-    Patches patches;
-    std::vector<std::vector<int>> vertices; ///< per patch
-    Points band;                            ///< per vertex its high band
-    std::vector<PatchShape> shapes;         ///< per patch
-    double threshold = 0;                   ///< of the logarithm of the ratio
-
-    /// How far the patch's log ratio is above the threshold in standard errors (2 / sqrt(n), as for Gaussian
-    /// coefficients).
-    [[nodiscard]] double soft(int patch) const;
-};
-
-[[nodiscard]] PatchReading read_patches(const Surface& surface, const Plan& plan, const Frame& frame);
-
-/// The patch that carries coded bit i where the axes point as `flips` says, then the spare ones; -1 where the surface
-/// has no such.
-[[nodiscard]] std::vector<int> carrying_patches(const PatchReading& reading, const Plan& plan, AxisFlips flips);
 
 /// The method of spectral coefficients (chapter 3): equal-area patches, the shape of their high bands; see MethodRow.
 [[nodiscard]] Plan plan_spectral(const Key& key, const CarrierOptions& options);

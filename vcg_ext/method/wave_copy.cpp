@@ -2,19 +2,17 @@
 #include "wave_copy.h"
 
 #include "../base/parallel.h"
-#include "../base/trimmed_mean.h"
 #include "../carrier/wave_flows.h"
 #include "../geometry/boundary.h"
 #include "../geometry/normals.h"
 #include "../geometry/umbrella.h"
-#include "../geometry/wave_sums.h"
+#include "../geometry/wave_values.h"
 #include "../key/random.h"
+#include "smoothed_original.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <memory>
-#include <optional>
+#include <utility>
 
 namespace vcg_ext {
 
@@ -27,6 +25,16 @@ constexpr double reach = 0.1;          ///< of feet, in radii
 constexpr double least_cosine = -0.2;  ///< between the normals of copy and original
 constexpr double least_flatness = 0.8; ///< cosine between a face's normal and the mean of those around: no sharp edges
 
+/// Per vertex twice the area of the faces around it.
+std::vector<double> areas_around(const Surface& surface)
+{
+    std::vector<double> area(surface.points.size(), 0);
+    for (const Triangle& t : surface.triangles)
+        for (const int v : t)
+            area[v] += scaled_normal(surface.points, t).norm();
+    return area;
+}
+
 /// Where a copy is looked at, laid on its original.
 struct Samples {
     Points points;
@@ -38,10 +46,7 @@ struct Samples {
 Samples samples_of(const Surface& surface, const Registration& registration)
 {
     const Points vertex_normal = vertex_normals(surface.points, surface.triangles);
-    std::vector<double> area(surface.points.size(), 0);
-    for (const Triangle& t : surface.triangles)
-        for (const int v : t)
-            area[v] += scaled_normal(surface.points, t).norm();
+    const std::vector<double> area = areas_around(surface);
     Samples samples;
     const auto add = [&](const Point& p, const Point& n, int kind, double a) {
         samples.points.push_back(p);
@@ -73,100 +78,69 @@ Samples samples_of(const Surface& surface, const Registration& registration)
     return samples;
 }
 
-template <class Value>
-Value at_foot(const std::vector<Value>& of_sites, const Triangle& t, const Point& weights)
+/// 1 where the normals of the mesh point outward, -1 where they point inward.
+double side_of(const WaveBody& body)
 {
-    return weights[0] * of_sites[t[0]] + weights[1] * of_sites[t[1]] + weights[2] * of_sites[t[2]];
+    return body.frame.measure < 0 ? -1 : 1;
 }
 
-/// The sites of a body as they are in the mesh.
-Surface in_mesh(const WaveBody& body, const Surface& like, const Points& canonical_points)
+/// A place of the mesh in the body's own coordinates.
+Point in_radii(const WaveBody& body, const Point& p)
 {
-    Surface surface{Points(body.topology.sites), like.triangles};
-    for_each_index(body.topology.sites, [&](int v) {
-        surface.points[v] = body.frame.centre + body.radius * (body.frame.axes * canonical_points[v]);
-    });
-    return surface;
+    return body.frame.axes.transpose() * (p - body.frame.centre) / body.radius;
 }
 
-/// The original's sites, canonical, after so many rounds of smoothing by a half; those of earlier calls are kept.
-class Smoothing {
-public:
-    Smoothing(const WaveBody& body, const EdgeGraph& graph) : graph_(graph)
-    {
-        known_[0].assign(body.points.begin(), body.points.begin() + body.topology.sites);
-    }
+/// A normal of the mesh in the body's own coordinates, outward.
+Point outward(const WaveBody& body, const Point& normal)
+{
+    return body.frame.axes.transpose() * normal * side_of(body);
+}
 
-    const Points& operator()(int rounds)
-    {
-        const auto before = std::prev(known_.upper_bound(rounds));
-        if (before->first == rounds)
-            return before->second;
-        return known_[rounds] = umbrella_steps(graph_, before->second, 0.5, rounds - before->first);
+/// How processing may have moved the sites, along their normals: by processing_flows(), and by some rounds more.
+std::vector<std::vector<double>> flows_of(const WaveBody& now, const Points& normals, const EdgeGraph& graph,
+                                          int rounds)
+{
+    std::vector<std::vector<double>> flows = processing_flows(now, normals);
+    if (rounds > 0) {
+        const int sites = now.topology.sites;
+        const Points later = umbrella_steps(graph, Points(now.points.begin(), now.points.begin() + sites), 0.5,
+                                            std::max(1, rounds / 10));
+        std::vector<double> flow(sites);
+        for (int v = 0; v < sites; ++v)
+            flow[v] = (later[v] - now.points[v]).dot(normals[v]);
+        flows.push_back(std::move(flow));
     }
+    return flows;
+}
 
-private:
-    const EdgeGraph& graph_;
-    std::map<int, Points> known_;
+/// Where a sample stands on the original, and how far it lies off it: in radii, outward positive. No foot where it tells
+/// nothing: nothing is near, or looks the same way, or it is a sharp edge.
+struct Offset {
+    Foot foot;
+    double distance = 0;
 };
 
-/// How well a number of rounds explains a copy.
-struct Trial {
-    Registration registration;
-    std::shared_ptr<const FootSearch> feet;
-};
-
-/// Whether a copy lies nearer to what a few rounds of smoothing make of the original, to first order: a look that needs
-/// no search of its own. Its distances without the farthest twentieth, those left over those as they are.
-bool seems_smoothed(const Copy& copy, const Registration& registration, const Points& later)
+std::vector<Offset> offsets_of(const Samples& samples, const FootSearch& feet, const Points& vertex_normals,
+                               const WaveBody& body)
 {
-    constexpr double gain = 0.97;
-    constexpr int count = 1500;
-    const FootSearch& original = copy.registrar.original();
-    const SurfaceSamples samples = sample_surface(copy.surface, count, "smoothing");
-    std::vector<double> plain;
-    std::vector<double> explained;
-    for (const Point& sample : samples.points) {
-        const Point p = registration.affine * sample;
-        const Foot foot = original(p, reach * copy.registrar.size());
-        if (foot.face < 0 || foot.on_rim)
-            continue;
-        const Point& n = original.normals()[foot.face];
-        const Triangle& t = original.surface().triangles[foot.face];
-        const double distance = n.dot(p - foot.point);
-        plain.push_back(std::abs(distance));
-        explained.push_back(std::abs(distance - n.dot(at_foot(later, t, foot.weights) - foot.point)));
-    }
-    return trimmed_mean(explained) < gain * trimmed_mean(plain);
-}
-
-/// The number of rounds that brings the original nearest to the copy: up a ladder as long as it falls, then by halving.
-/// Never looks at waves.
-template <class Try>
-int best_rounds(const Try& residual)
-{
-    const std::array<int, 7> ladder = {0, 3, 8, 20, 50, 120, 300};
-    if (residual(3) > residual(0))
-        return 0;
-    std::size_t i = 1;
-    while (i + 1 < ladder.size() && residual(ladder[i + 1]) < residual(ladder[i]))
-        ++i;
-    int low = ladder[i - 1];
-    int best = ladder[i];
-    int high = ladder[std::min(i + 1, ladder.size() - 1)];
-    while (high - low > 2) {
-        const bool below = best - low > high - best;
-        const int middle = below ? (low + best) / 2 : (best + high + 1) / 2;
-        if (middle == best || middle == low || middle == high)
-            break;
-        if (residual(middle) < residual(best)) {
-            (below ? high : low) = best;
-            best = middle;
-        } else {
-            (below ? low : high) = middle;
+    const int count = static_cast<int>(samples.points.size());
+    std::vector<Offset> offsets(count);
+    for_chunks(count, 512, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i) {
+            const Foot foot = feet(samples.points[i], reach * body.radius);
+            if (foot.face < 0 || foot.on_rim)
+                continue;
+            const Point n = outward(body, feet.normals()[foot.face]);
+            const Point mean = at_foot(vertex_normals, feet.surface().triangles[foot.face], foot.weights).normalized();
+            const Point looks = outward(body, samples.normals[i]);
+            if (!(looks.dot(mean) > least_cosine) || !(mean.dot(n) > least_flatness))
+                continue;
+            const Point way = body.frame.axes.transpose() * (samples.points[i] - foot.point);
+            const bool inside = foot.weights.minCoeff() > 1e-9;
+            offsets[i] = {foot, (way.dot(inside ? n : mean) < 0 ? -1 : 1) * way.norm() / body.radius};
         }
-    }
-    return best;
+    });
+    return offsets;
 }
 
 /// Whether the copy's edges are others than the original's, and not so many that it would take too long.
@@ -179,44 +153,39 @@ bool has_own_edges(const Copy& copy)
            (surface.points.size() != original.points.size() || surface.triangles.size() != original.triangles.size());
 }
 
+/// The vertices that have a place on the original, and faces all around.
+std::vector<int> inner_vertices(const Unsmoothed& way, const Surface& surface, const EdgeGraph& graph)
+{
+    const int count = static_cast<int>(surface.points.size());
+    std::vector<char> rim(count, 0);
+    for (const EdgeUse& edge : boundary(surface))
+        rim[edge.low] = rim[edge.high] = 1;
+    return indices_where(
+        count, [&](int v) { return way.feet[v].face >= 0 && !way.feet[v].on_rim && !rim[v] && graph.degree(v) > 0; });
+}
+
 } // namespace
 
 WaveCopy::WaveCopy(const Copy& copy)
     : body_(wave_body(copy.original)), impression_(impression_of(copy.original, points_of_impression)),
       graph_(edge_graph(copy.registrar.original().surface())), directions_(offset_directions(body_))
 {
-    const Surface& sewn = copy.registrar.original().surface();
-    Smoothing smoothed(body_, graph_);
-    std::map<int, Trial> trials;
-    const auto residual = [&](int rounds) {
-        const auto found = trials.find(rounds);
-        if (found != trials.end())
-            return found->second.registration.residual;
-        Trial trial{copy.registration, nullptr};
-        if (rounds > 0)
-            trial.feet = std::make_shared<FootSearch>(in_mesh(body_, sewn, smoothed(rounds)));
-        const FootSearch& feet = rounds > 0 ? *trial.feet : copy.registrar.original();
-        Registrar(feet, copy.registrar).follow(copy.surface, trial.registration);
-        return (trials[rounds] = std::move(trial)).registration.residual;
-    };
-    const bool smooth = seems_smoothed(copy, copy.registration, in_mesh(body_, sewn, smoothed(3)).points);
-    const int rounds = smooth ? best_rounds(residual) : 0;
+    const SmoothedOriginal smoothed = smoothed_original(copy, body_, graph_);
     State plain;
     plain.registration = copy.registration;
-    if (rounds == 0) {
+    if (smoothed.rounds == 0) {
         look(copy, copy.registrar.original(), std::move(plain));
         return;
     }
     const bool own_edges = has_own_edges(copy);
     State worn;
-    worn.rounds = rounds;
+    worn.rounds = smoothed.rounds;
     worn.weight = own_edges ? 0.3 : 0.75;
-    worn.registration = trials[rounds].registration;
-    Registrar(*trials[rounds].feet, copy.registrar).refine(copy.surface, worn.registration);
+    worn.registration = smoothed.registration;
     plain.weight = own_edges ? 0.1 : 0.25;
     if (own_edges)
         look_before_smoothing(copy, worn);
-    look(copy, *trials[rounds].feet, std::move(worn));
+    look(copy, *smoothed.feet, std::move(worn));
     look(copy, copy.registrar.original(), std::move(plain));
 }
 
@@ -233,23 +202,13 @@ void WaveCopy::look_before_smoothing(const Copy& copy, const State& worn)
 
 void WaveCopy::add(const Unsmoothed& way, const Surface& surface, double weight)
 {
-    const double outward = body_.frame.measure < 0 ? -1 : 1;
-    const int count = static_cast<int>(surface.points.size());
     State state;
     state.rounds = way.rounds;
     state.weight = weight;
     state.places = way.feet;
-    std::vector<char> rim(count, 0);
-    for (const EdgeUse& edge : boundary(surface))
-        rim[edge.low] = rim[edge.high] = 1;
-    std::vector<double> area(count, 0);
-    for (const Triangle& t : surface.triangles)
-        for (const int v : t)
-            area[v] += scaled_normal(surface.points, t).norm();
-    for (int v = 0; v < count; ++v)
-        if (way.feet[v].face >= 0 && !way.feet[v].on_rim && !rim[v] && copy_graph_.degree(v) > 0)
-            state.vertices.push_back(v);
+    state.vertices = inner_vertices(way, surface, copy_graph_);
 
+    const std::vector<double> area = areas_around(surface);
     const std::vector<double> curvature = processing_flows(body_, site_normals(body_)).front();
     const Points later = umbrella_step(copy_graph_, way.smoothed, 0.5);
     const auto rows = static_cast<Eigen::Index>(state.vertices.size());
@@ -260,10 +219,10 @@ void WaveCopy::add(const Unsmoothed& way, const Surface& surface, double weight)
     field.nuisance.resize(rows, 15);
     for (Eigen::Index row = 0; row < rows; ++row) {
         const int v = state.vertices[row];
-        const Point n = body_.frame.axes.transpose() * way.normals[v] * outward;
-        const Point p = body_.frame.axes.transpose() * (way.smoothed[v] - body_.frame.centre) / body_.radius;
+        const Point n = outward(body_, way.normals[v]);
+        const Point p = in_radii(body_, way.smoothed[v]);
         const double bend = at_foot(curvature, body_.topology.triangles[way.feet[v].face], way.feet[v].weights);
-        field.residual[row] = outward * (way.laid[v] - way.smoothed[v]).dot(way.normals[v]) / body_.radius;
+        field.residual[row] = side_of(body_) * (way.laid[v] - way.smoothed[v]).dot(way.normals[v]) / body_.radius;
         field.places.push_back(p);
         field.roughness.push_back(std::abs(bend) * area[v]);
         state.normals.push_back(n);
@@ -277,62 +236,29 @@ void WaveCopy::add(const Unsmoothed& way, const Surface& surface, double weight)
 
 void WaveCopy::look(const Copy& copy, const FootSearch& feet, State state)
 {
-    const double outward = body_.frame.measure < 0 ? -1 : 1;
     const Surface& original = feet.surface();
-    const int sites = body_.topology.sites;
     WaveBody now = body_;
-    for_each_index(sites, [&](int v) {
-        now.points[v] = body_.frame.axes.transpose() * (original.points[v] - body_.frame.centre) / body_.radius;
-    });
-    const Points vertex_normal = site_normals(now);
-    std::vector<std::vector<double>> flows = processing_flows(now, vertex_normal);
-    if (state.rounds > 0) { // some rounds more
-        const Points later = umbrella_steps(graph_, Points(now.points.begin(), now.points.begin() + sites), 0.5,
-                                            std::max(1, state.rounds / 10));
-        std::vector<double> flow(sites);
-        for (int v = 0; v < sites; ++v)
-            flow[v] = (later[v] - now.points[v]).dot(vertex_normal[v]);
-        flows.push_back(std::move(flow));
-    }
-
+    for_each_index(body_.topology.sites, [&](int v) { now.points[v] = in_radii(body_, original.points[v]); });
+    const Points vertex_normals = site_normals(now);
+    const std::vector<std::vector<double>> flows = flows_of(now, vertex_normals, graph_, state.rounds);
     const Samples samples = samples_of(copy.surface, state.registration);
-    const int count = static_cast<int>(samples.points.size());
-    std::vector<Foot> all(count);
-    std::vector<double> distance(count);
-    std::vector<char> good(count, 0);
-    for_chunks(count, 512, [&](int begin, int end) {
-        for (int i = begin; i < end; ++i) {
-            const Foot foot = feet(samples.points[i], reach * body_.radius);
-            if (foot.face < 0 || foot.on_rim)
-                continue;
-            const Triangle& t = original.triangles[foot.face];
-            const Point n = body_.frame.axes.transpose() * feet.normals()[foot.face] * outward;
-            const Point mean = at_foot(vertex_normal, t, foot.weights).normalized();
-            const Point looks = body_.frame.axes.transpose() * samples.normals[i] * outward;
-            if (!(looks.dot(mean) > least_cosine) || !(mean.dot(n) > least_flatness))
-                continue;
-            const Point way = body_.frame.axes.transpose() * (samples.points[i] - foot.point);
-            const bool inside = foot.weights.minCoeff() > 1e-9;
-            distance[i] = (way.dot(inside ? n : mean) < 0 ? -1 : 1) * way.norm() / body_.radius;
-            all[i] = foot;
-            good[i] = 1;
-        }
-    });
+    const std::vector<Offset> offsets = offsets_of(samples, feet, vertex_normals, body_);
 
-    const int kept = static_cast<int>(std::count(good.begin(), good.end(), 1));
+    const auto kept =
+        std::count_if(offsets.begin(), offsets.end(), [](const Offset& one) { return one.foot.face >= 0; });
     ResidualField& field = state.field;
     field.floor = floor_of_noise * body_.diagonal / body_.radius;
     field.residual.resize(kept);
     field.nuisance.resize(kept, 13 + static_cast<Eigen::Index>(flows.size()));
     Eigen::Index row = 0;
-    for (int i = 0; i < count; ++i) {
-        if (!good[i])
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+        const Foot& foot = offsets[i].foot;
+        if (foot.face < 0)
             continue;
-        const Foot& foot = all[i];
         const Triangle& t = original.triangles[foot.face];
-        const Point p = body_.frame.axes.transpose() * (foot.point - body_.frame.centre) / body_.radius;
-        const Point n = body_.frame.axes.transpose() * feet.normals()[foot.face] * outward;
-        field.residual[row] = distance[i];
+        const Point p = in_radii(body_, foot.point);
+        const Point n = outward(body_, feet.normals()[foot.face]);
+        field.residual[row] = offsets[i].distance;
         field.places.push_back(p);
         field.kind.push_back(samples.kind[i]);
         field.roughness.push_back(std::abs(at_foot(flows[0], t, foot.weights)) * samples.areas[i]);

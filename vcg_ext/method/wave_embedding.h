@@ -2,7 +2,8 @@
 #pragma once
 #include "../base/error.h"
 #include "../base/progress.h"
-#include "../carrier/waves.h"
+#include "../carrier/wave_plan.h"
+#include "../payload/message.h"
 #include "../placement/cover.h"
 
 #include <functional>

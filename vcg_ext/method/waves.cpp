@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "waves.h"
 
+#include "../carrier/wave_evidence.h"
 #include "wave_embedding.h"
 
 #include <algorithm>

@@ -4,7 +4,8 @@
 
 #include "../base/median.h"
 #include "../base/pi.h"
-#include "../geometry/wave_sums.h"
+#include "../carrier/wave_reading.h"
+#include "../geometry/wave_values.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,9 +5,8 @@
 #include "../base/pi.h"
 #include "../carrier/wave_flows.h"
 #include "../geometry/turns.h"
-#include "../geometry/wave_sums.h"
+#include "../geometry/wave_values.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -149,7 +148,7 @@ std::vector<double> WaveField::least(const std::vector<double>& change) const
     const Eigen::VectorXd a = solver_.solve(4 * pi * Eigen::Map<const Eigen::VectorXd>(change.data(), count));
     const Points sites(body_.points.begin(), body_.points.begin() + body_.topology.sites);
     if (values_.empty())
-        return wave_field(sites, plan_.vectors, plan_.phases, {a.data(), a.data() + count});
+        return sums_of_waves(sites, plan_.vectors, plan_.phases, {a.data(), a.data() + count});
     std::vector<double> field(sites.size());
     for_each_index(static_cast<int>(sites.size()), [&](int v) {
         double sum = 0;

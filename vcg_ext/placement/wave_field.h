@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "../carrier/waves.h"
+#include "../carrier/wave_plan.h"
 
 #include <Eigen/Cholesky>
 #include <functional>

@@ -3,8 +3,8 @@
 
 #include "../base/parallel.h"
 #include "../base/pi.h"
+#include "../geometry/solid_transform.h"
 #include "../geometry/turns.h"
-#include "../geometry/wave_sums.h"
 
 #include <array>
 #include <cmath>

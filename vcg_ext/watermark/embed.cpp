@@ -222,15 +222,9 @@ std::array<int, 2> numbers_to_try(int wanted, int roomy)
     return {3 * wanted / 4, 3 * wanted / 8};
 }
 
-} // namespace
-
-EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, const Progress& progress)
+/// What is known before a vertex moves.
+EmbedReport report_of(const EmbedOptions& options, const Body& body)
 {
-    const EmbedOptions options = completed(wanted, surface.points.size());
-    report(progress, 0, "Finding carriers");
-    Stopwatch watch;
-    const MethodRow& method = row_of(options.carriers.method);
-    Body body = body_for(method, {copy_of(surface.points), surface.triangles});
     EmbedReport result;
     result.method = options.carriers.method;
     result.statistic = options.carriers.statistic;
@@ -240,54 +234,78 @@ EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, 
     result.carriers = options.carriers.bits;
     result.pieces = body.pieces;
     result.loose_pieces = body.loose_pieces;
-    const Surface& sites = body.surface;
-    const auto around =
-        std::make_shared<VertexFaces>(vertex_faces(static_cast<int>(sites.points.size()), sites.triangles));
-    const bool floats = options.placement.storage == Storage::Float;
-    const auto as_stored = [&](const Points& placed) {
-        Points points = with_sites_at(body, surface.points, placed);
-        if (floats) {
-            const Points rounded = rounded_to_float(points);
-            for_each_index(static_cast<int>(points.size()), [&](int v) {
-                if (body.site_of_vertex[v] >= 0)
-                    points[v] = rounded[v];
-            });
-        }
-        return points;
-    };
+    result.recipe = recipe_of(options);
+    return result;
+}
+
+/// All points of the mesh with the body's sites placed, those rounded as they will be stored.
+Points as_stored(const Body& body, const Points& before, const Points& placed, Storage storage)
+{
+    Points points = with_sites_at(body, before, placed);
+    if (storage == Storage::Float) {
+        const Points rounded = rounded_to_float(points);
+        for_each_index(static_cast<int>(points.size()), [&](int v) {
+            if (body.site_of_vertex[v] >= 0)
+                points[v] = rounded[v];
+        });
+    }
+    return points;
+}
+
+/// self_check() of the mesh at these points.
+/// \param body as it is again afterwards; mended anew only where positions may have a part in that
+double read_back(Body& body, const Points& marked, const std::vector<Triangle>& triangles, const Key& key,
+                 const EmbedOptions& options, EmbedReport& result, const Progress& progress)
+{
+    if (std::optional<Points> there = sites_moved(body, marked)) {
+        const Exchange exchange(body.surface.points, *there);
+        check_surface(body.surface);
+        return self_check(body, key, options, result, progress);
+    }
+    return self_check(body_for(row_of(options.carriers.method), {marked, triangles}), key, options, result, progress);
+}
+
+/// \param marked the sites as they are stored
+void measure_sites(const Surface& sites, const Points& marked, const VertexFaces& around, EmbedReport& result)
+{
+    result.mrms = local_mrms(sites.points, marked, sites.triangles, around);
+    result.diagonal = bounding_box(sites.points).diagonal().norm();
+    result.mrms_relative = result.mrms / result.diagonal;
+    if (row_of(result.method).is_smooth)
+        result.plane_bend = largest_bend(face_normals(sites.points, sites.triangles), marked, sites.triangles, around);
+}
+
+} // namespace
+
+EmbedReport embed(Surface& surface, const Key& key, const EmbedOptions& wanted, const Progress& progress)
+{
+    const EmbedOptions options = completed(wanted, surface.points.size());
+    report(progress, 0, "Finding carriers");
+    Stopwatch watch;
+    Body body = body_for(row_of(options.carriers.method), {copy_of(surface.points), surface.triangles});
+    EmbedReport result = report_of(options, body);
+    const auto around = std::make_shared<VertexFaces>(
+        vertex_faces(static_cast<int>(body.surface.points.size()), body.surface.triangles));
     Points marked;
-    const auto check_marked = [&] {
-        if (std::optional<Points> there = sites_moved(body, marked)) {
-            const Exchange exchange(body.surface.points, *there);
-            check_surface(body.surface);
-            return self_check(body, key, options, result, progress);
-        }
-        return self_check(body_for(method, {marked, surface.triangles}), key, options, result, progress);
-    };
     const auto check = [&](const Points& placed) {
         result.seconds["placement"] += watch.lap();
-        marked = as_stored(placed);
+        marked = as_stored(body, surface.points, placed, options.placement.storage);
         const std::size_t warnings = result.warnings.size();
-        result.detection_ratio = check_marked();
+        result.detection_ratio = read_back(body, marked, surface.triangles, key, options, result, progress);
         if (result.detection_ratio < 1)
             result.warnings.resize(warnings);
         result.seconds["check"] += watch.lap();
         return result.detection_ratio;
     };
-    Points stored =
+    Points sites =
         put_on(body, around, held_sites(body, options.held), key, options, result.bits, result, check, progress);
-    if (floats)
-        stored = rounded_to_float(stored);
+    if (options.placement.storage == Storage::Float)
+        sites = rounded_to_float(sites);
 
     report(progress, 95, "Measuring");
     result.moved_vertices = moved_count(surface.points, marked);
     result.max_displacement = max_displacement(surface.points, marked);
-    result.mrms = local_mrms(sites.points, stored, sites.triangles, *around);
-    result.diagonal = bounding_box(body.surface.points).diagonal().norm();
-    result.mrms_relative = result.mrms / result.diagonal;
-    if (method.is_smooth)
-        result.plane_bend = largest_bend(face_normals(sites.points, sites.triangles), stored, sites.triangles, *around);
-    result.recipe = recipe_of(options);
+    measure_sites(body.surface, sites, *around, result);
     warn(options, result);
     warn_of_shape(body, result);
     result.seconds["measure"] = watch.lap();

@@ -3,7 +3,6 @@
 #include "../method/marking.h"
 #include "../payload/message_text.h"
 
-#include <optional>
 #include <vector>
 
 namespace vcg_ext {

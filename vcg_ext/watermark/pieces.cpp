@@ -4,8 +4,6 @@
 #include "../base/error.h"
 #include "../base/text.h"
 
-#include <algorithm>
-
 namespace vcg_ext {
 
 namespace {

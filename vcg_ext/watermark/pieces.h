@@ -5,7 +5,6 @@
 #include "report.h"
 
 #include <functional>
-#include <string>
 
 namespace vcg_ext {
 

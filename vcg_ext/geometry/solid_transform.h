@@ -26,12 +26,4 @@ namespace vcg_ext {
 [[nodiscard]] std::vector<std::complex<double>>
 solid_transform(const Points& points, const std::vector<Triangle>& triangles, const Points& waves, double longest = 0);
 
-/// Per point the sum over waves of `amplitudes[k]` cos(waves[k] . x + phases[k]).
-[[nodiscard]] std::vector<double> wave_field(const Points& points, const Points& waves,
-                                             const std::vector<double>& phases, const std::vector<double>& amplitudes);
-
-/// cos(waves[k] . x + phases[k]): row after row, one row a point.
-[[nodiscard]] std::vector<double> wave_values(const Points& points, const Points& waves,
-                                              const std::vector<double>& phases);
-
 } // namespace vcg_ext

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "waves.h"
+#include "wave_evidence.h"
 
-#include "../base/error.h"
 #include "../base/parallel.h"
 #include "../base/pi.h"
 #include "../base/vectorized.h"
 #include "../geometry/turns.h"
-#include "../geometry/wave_sums.h"
-#include "../key/random.h"
 #include "../payload/cosine_tail.h"
 #include "../payload/evidence.h"
-#include "wave_spectra.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,8 +16,6 @@ namespace vcg_ext {
 
 namespace {
 
-constexpr double rungs_per_octave = 4;
-constexpr double plain_share = 0.7; ///< of the weight, for the orientation that the body itself tells
 constexpr double never = std::numeric_limits<double>::infinity();
 
 /// log(exp(a) + exp(b))
@@ -29,75 +23,6 @@ double log_add(double a, double b)
 {
     const double high = std::max(a, b);
     return high == -never ? high : high + std::log1p(std::exp(std::min(a, b) - high));
-}
-
-constexpr int gaps = WaveSpectra::gaps;
-constexpr auto nodes = WaveSpectra::nodes;
-
-/// Lagrange's weights at `s` of the nodes `first` to `first` + gaps.
-std::array<double, gaps + 1> interpolation(double s, int first)
-{
-    std::array<double, gaps + 1> weights{};
-    for (int i = 0; i <= gaps; ++i) {
-        weights[i] = 1;
-        for (int j = 0; j <= gaps; ++j)
-            if (j != i)
-                weights[i] *= (s - nodes[first + j]) / (nodes[first + i] - nodes[first + j]);
-    }
-    return weights;
-}
-
-double rms(const std::vector<double>& x)
-{
-    double sum = 0;
-    for (const double value : x)
-        sum += value * value;
-    return std::sqrt(sum / std::max<std::size_t>(1, x.size()));
-}
-
-/// Scales to an RMS of half a period; nothing where the column is zero.
-void to_half_a_period(std::vector<double>& column)
-{
-    const double size = rms(column);
-    for (double& x : column)
-        x *= size > 0 ? 0.5 / size : 0;
-}
-
-/// Takes off `column` what it has of `other`.
-void make_square(std::vector<double>& column, const std::vector<double>& other)
-{
-    double dot = 0;
-    double square = 0;
-    for (std::size_t k = 0; k < column.size(); ++k) {
-        dot += other[k] * column[k];
-        square += other[k] * other[k];
-    }
-    if (square > 0)
-        for (std::size_t k = 0; k < column.size(); ++k)
-            column[k] -= dot / square * other[k];
-}
-
-/// Phases for each lambda k of `wanted`, from values at the nodes, as far as these go.
-std::vector<std::vector<double>> interpolated(const std::vector<std::vector<double>>& at_nodes,
-                                              const std::vector<double>& wanted, const std::vector<double>& dithers)
-{
-    std::vector<std::vector<double>> phases;
-    for (const double s : wanted) {
-        int first = 0;
-        while (first + gaps + 1 < static_cast<int>(nodes.size()) && nodes[first + gaps] < s)
-            first += gaps;
-        if (first + gaps >= static_cast<int>(at_nodes.size()))
-            break;
-        const auto weights = interpolation(s, first);
-        std::vector<double> phase(dithers.size());
-        for (std::size_t k = 0; k < phase.size(); ++k) {
-            phase[k] = -dithers[k];
-            for (int i = 0; i <= gaps; ++i)
-                phase[k] += weights[i] * at_nodes[first + i][k];
-        }
-        phases.push_back(std::move(phase));
-    }
-    return phases;
 }
 
 /// One row of a view's grid, u by u, as complex numbers exp(2 pi i y_k) that turn by a step of u.
@@ -185,183 +110,7 @@ std::vector<Part> for_all_ways(const WaveReading& reading, const std::vector<dou
     return parts;
 }
 
-WaveGrid make_grid()
-{
-    constexpr double at_rest = 0.25; // it is read by itself too, and needs the least
-    constexpr double shifted = 0.5;
-    constexpr double undone = 0.25;
-    WaveGrid grid;
-    grid.step = 0.2;
-    const auto take_logarithms = [&](std::size_t first_row, double share) {
-        double sum = 0;
-        for (std::size_t i = first_row; i < grid.rows.size(); ++i)
-            for (const double weight : grid.rows[i].log_weight)
-                sum += weight;
-        for (std::size_t i = first_row; i < grid.rows.size(); ++i)
-            for (double& weight : grid.rows[i].log_weight)
-                weight = std::log(weight == 0 ? at_rest : share * weight / sum);
-    };
-    for (int i = -60; i <= 500; ++i) {
-        WaveGrid::Row row;
-        row.t = i / 10.0;
-        const double reach = std::min(6.0, 1 + 1.5 * std::abs(row.t));
-        const int most = static_cast<int>(reach / grid.step + 1e-9);
-        row.first = -most * grid.step;
-        for (int j = -most; j <= most; ++j) {
-            const double u = j * grid.step;
-            row.log_weight.push_back(i == 0 && j == 0 ? 0
-                                                      : 1 / (1 + std::pow(std::abs(row.t) / 1.5, 1.5)) / (1 + u * u));
-        }
-        grid.rows.push_back(row);
-    }
-    take_logarithms(0, shifted);
-    const std::size_t first = grid.rows.size();
-    for (int i = 1; i <= 160; ++i) {
-        WaveGrid::Row row;
-        row.undone = i - 1;
-        grid.undone.push_back(i * nodes.back() / 160);
-        row.first = -2 * grid.step;
-        for (int j = -2; j <= 2; ++j)
-            row.log_weight.push_back((j == 0 ? 1 : 0.25) / (1 + grid.undone.back()));
-        grid.rows.push_back(row);
-    }
-    take_logarithms(first, undone);
-    return grid;
-}
-
 } // namespace
-
-Points wave_vectors(Stream& draws, int count)
-{
-    Points vectors;
-    while (static_cast<int>(vectors.size()) < count) {
-        Point q;
-        for (double& x : q)
-            x = longest_wave * (2 * uniform(draws) - 1);
-        const double squared = q.squaredNorm();
-        if (squared >= shortest_wave * shortest_wave && squared <= longest_wave * longest_wave)
-            vectors.push_back(q);
-    }
-    return vectors;
-}
-
-WavePlan wave_plan(const Key& key, int count)
-{
-    WavePlan plan;
-    Stream vectors = key.stream("wave-vectors");
-    plan.vectors = wave_vectors(vectors, count);
-    Stream phases = key.stream("wave-phases");
-    Stream dithers = key.stream("wave-dithers");
-    for (int k = 0; k < count; ++k) {
-        plan.phases.push_back(2 * pi * uniform(phases));
-        plan.dithers.push_back(uniform(dithers));
-    }
-    return plan;
-}
-
-double wave_step(const WaveBody& body, double strength, int waves, int* rung)
-{
-    const double step = strength / usual_part * std::sqrt(12.0) * body.area * (body.diagonal / body.radius) / (4 * pi) /
-                        std::sqrt(2.0 * waves);
-    const int place = static_cast<int>(std::lround(rungs_per_octave * std::log2(step)));
-    if (rung)
-        *rung = place;
-    return step_of_rung(place);
-}
-
-double step_of_rung(int rung)
-{
-    return std::exp2(rung / rungs_per_octave);
-}
-
-std::vector<double> wave_values_of(const std::vector<std::complex<double>>& transform,
-                                   const std::vector<double>& phases, bool mirrored)
-{
-    std::vector<double> values(transform.size());
-    for (std::size_t k = 0; k < transform.size(); ++k) {
-        double s, c;
-        sine_cosine(phases[k], s, c);
-        values[k] = c * transform[k].real() - (mirrored ? -s : s) * transform[k].imag();
-    }
-    return values;
-}
-
-const WaveGrid& wave_grid()
-{
-    static const WaveGrid grid = make_grid();
-    return grid;
-}
-
-WaveReading read_waves(WaveSpectra& spectra, const WavePlan& plan, const WaveReadOptions& options)
-{
-    const WaveBody& body = spectra.body();
-    const int orientations = static_cast<int>(spectra.body().turns.size());
-    const std::size_t count = plan.vectors.size();
-    const WaveSpectra::Spectrum& rest = spectra.at_rest(plan);
-    std::array<WaveSpectra::Spectrum, 2> flows;
-    std::vector<const WaveSpectra::Spectrum*> before;
-    if (!options.at_rest_only) {
-        flows = spectra.flows(plan);
-        before = spectra.unsmoothed(plan);
-    }
-
-    int own_rung = 0;
-    (void)wave_step(body, options.strength, plan.count(), &own_rung);
-    const int ways_round = orientations * (options.mirrored ? 2 : 1);
-    double rung_sum = 0;
-    for (int j = options.lowest_rung; j <= options.highest_rung; ++j)
-        rung_sum += std::pow(rung_fall, std::abs(j));
-
-    WaveReading reading;
-    reading.grid = &wave_grid();
-    for (int j = options.lowest_rung; j <= options.highest_rung; ++j)
-        for (int way = 0; way < ways_round; ++way) {
-            WaveView view;
-            view.orientation = way % orientations;
-            view.mirrored = way >= orientations;
-            view.rung = own_rung + j;
-            view.step = step_of_rung(view.rung);
-            const double share = ways_round == 1 ? 1 : way == 0 ? plain_share : (1 - plain_share) / (ways_round - 1);
-            view.log_weight = std::log(share * std::pow(rung_fall, std::abs(j)) / rung_sum);
-            const auto part = [&](const WaveSpectra::Spectrum& all) {
-                std::vector<std::complex<double>> own(count);
-                for (std::size_t k = 0; k < count; ++k)
-                    own[k] = all[k * orientations + view.orientation];
-                std::vector<double> values = wave_values_of(own, plan.phases, view.mirrored);
-                for (double& value : values)
-                    value /= view.step;
-                return values;
-            };
-            view.phase = part(rest);
-            for (std::size_t k = 0; k < count; ++k)
-                view.phase[k] -= plan.dithers[k];
-            if (options.at_rest_only) {
-                reading.views.push_back(std::move(view));
-                continue;
-            }
-            view.bend = part(flows[0]);
-            view.relax = part(flows[1]);
-            to_half_a_period(view.bend);
-            make_square(view.relax, view.bend);
-            to_half_a_period(view.relax);
-            std::vector<std::vector<double>> at_nodes;
-            at_nodes.reserve(before.size());
-            for (const WaveSpectra::Spectrum* spectrum : before)
-                at_nodes.push_back(part(*spectrum));
-            view.undone = interpolated(at_nodes, reading.grid->undone, plan.dithers);
-            reading.views.push_back(std::move(view));
-        }
-    return reading;
-}
-
-std::vector<double> wave_phases(const WaveReading& reading, const WaveWay& way)
-{
-    const WaveView& view = reading.views[way.view];
-    std::vector<double> y = way.undone < 0 ? view.phase : view.undone[way.undone];
-    for (std::size_t k = 0; k < view.bend.size(); ++k)
-        y[k] += way.t * view.bend[k] + way.u * view.relax[k];
-    return y;
-}
 
 WavePresence wave_presence(const WaveReading& reading)
 {

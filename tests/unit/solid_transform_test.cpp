@@ -3,8 +3,9 @@
 #include "support/shapes.h"
 #include "vcg_ext/base/parallel.h"
 #include "vcg_ext/base/pi.h"
+#include "vcg_ext/geometry/solid_transform.h"
 #include "vcg_ext/geometry/turns.h"
-#include "vcg_ext/geometry/wave_sums.h"
+#include "vcg_ext/geometry/wave_values.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -31,7 +32,7 @@ TEST(Turns, SineAndCosineAreThoseOfTheLibrary)
     }
 }
 
-TEST(WaveSums, BoxHasItsTextbookTransform)
+TEST(SolidTransform, BoxHasItsTextbookTransform)
 {
     // Few triangles of many radians an edge; and waves square to faces and edges, where phases coincide.
     const Surface box = shapes::box(3, 2, 1);
@@ -46,7 +47,7 @@ TEST(WaveSums, BoxHasItsTextbookTransform)
     }
 }
 
-TEST(WaveSums, TrianglesOfAllSizesMakeTheSameSolid)
+TEST(SolidTransform, TrianglesOfAllSizesMakeTheSameSolid)
 {
     // A tetrahedron as four triangles, and with one side cut into ever smaller ones: each form of the integral is
     // used: divided differences, series by triangle, and at last cells (4,096 triangles and more).
@@ -70,7 +71,7 @@ TEST(WaveSums, TrianglesOfAllSizesMakeTheSameSolid)
     }
 }
 
-TEST(WaveSums, ShiftMultipliesByAPhaseAndTurnTurnsTheWaves)
+TEST(SolidTransform, ShiftMultipliesByAPhaseAndTurnTurnsTheWaves)
 {
     const Surface body = load("blob.off");
     const Point axis = Point(1, 2, 2) / 3;
@@ -87,7 +88,7 @@ TEST(WaveSums, ShiftMultipliesByAPhaseAndTurnTurnsTheWaves)
         EXPECT_LT(std::abs(after[k] - before[k] * std::exp(Complex(0, turned[k].dot(shift)))), 1e-9);
 }
 
-TEST(WaveSums, ThreadsHaveNoPartInTheResult)
+TEST(SolidTransform, ThreadsHaveNoPartInTheResult)
 {
     const Surface body = load("blobby.off");
     const Points waves{{5, 7, 11}, {0, 0, 12}, {-8, 15, 3}};
@@ -99,13 +100,13 @@ TEST(WaveSums, ThreadsHaveNoPartInTheResult)
     EXPECT_EQ(one, seven);
 }
 
-TEST(WaveSums, FieldIsTheSumOfItsWaves)
+TEST(WaveValues, SumIsThatOfTheWaves)
 {
     const Points points{{0.1, 0.2, 0.3}, {-1, 2, 0.5}};
     const Points waves{{5, 7, 11}, {0, 0, 12}, {-8, 15, 3}};
     const std::vector<double> phases{0.3, 2, 5};
     const std::vector<double> amplitudes{1, -2, 0.5};
-    const std::vector<double> field = wave_field(points, waves, phases, amplitudes);
+    const std::vector<double> field = sums_of_waves(points, waves, phases, amplitudes);
     const std::vector<double> values = wave_values(points, waves, phases);
     for (std::size_t v = 0; v < points.size(); ++v) {
         double sum = 0;
