@@ -53,7 +53,7 @@ def main(
         began = time.process_time()
         with Ledger(shop.ledger) as ledger:
             found = trace(copy, ledger, shop.key)
-        console.print(f"{model.name}: {found.recipient} of {buyer} among {found.candidates} candidates, "
+        console.print(f"{model.name}: {found.recipient} of {buyer} among {found.evidence.candidates} candidates, "
                       f"{time.process_time() - began:.2f} s of CPU")  # fmt: skip
 
 
