@@ -35,7 +35,7 @@ MethodRow row_for(Method method, const char* name, const char* hint, const char*
     return {method, name, hint, secret, {{method, 0}}};
 }
 
-MethodRow layered()
+MethodRow layered_row()
 {
     MethodRow row = row_for(Method::Layered, "Layered", "Waves and another on top: survives the most", "");
     row.layers = {{Method::Waves, 0}, {Method::Spectral, 4}, {Method::LM, 0.1}};
@@ -45,7 +45,7 @@ MethodRow layered()
     return row;
 }
 
-MethodRow waves()
+MethodRow waves_row()
 {
     MethodRow row = row_for(Method::Waves, "Waves", "a smooth field: survives remeshing and smoothing", "waves");
     row.is_smooth = true;
@@ -62,7 +62,7 @@ MethodRow waves()
 }
 
 template <Radial way>
-MethodRow norms(Method method, const char* name, const char* hint)
+MethodRow norms_row(Method method, const char* name, const char* hint)
 {
     MethodRow row = row_for(method, name, hint, "norms");
     row.has_statistic = true;
@@ -78,7 +78,7 @@ MethodRow norms(Method method, const char* name, const char* hint)
     return row;
 }
 
-MethodRow geodesic()
+MethodRow geodesic_row()
 {
     MethodRow row = row_for(Method::Geodesic, "Geodesic", "distances along the surface", "strips");
     row.has_statistic = true;
@@ -94,7 +94,7 @@ MethodRow geodesic()
     return row;
 }
 
-MethodRow spectral()
+MethodRow spectral_row()
 {
     MethodRow row = row_for(Method::Spectral, "Spectral", "survives noise and smoothing", "patches");
     row.number = number_by_rings;
@@ -113,13 +113,13 @@ MethodRow spectral()
 const std::vector<MethodRow>& all_methods()
 {
     static const std::vector<MethodRow> methods = {
-        layered(),
-        waves(),
-        norms<Radial::Sphere>(Method::LM, "L-M", "vertex norms, the least visible"),
-        norms<Radial::Selective>(Method::QSP, "QSP", "vertex norms, to compare"),
-        norms<Radial::Straight>(Method::Cho, "Cho", "vertex norms, the fastest, more visible"),
-        geodesic(),
-        spectral(),
+        layered_row(),
+        waves_row(),
+        norms_row<Radial::Sphere>(Method::LM, "L-M", "vertex norms, the least visible"),
+        norms_row<Radial::Selective>(Method::QSP, "QSP", "vertex norms, to compare"),
+        norms_row<Radial::Straight>(Method::Cho, "Cho", "vertex norms, the fastest, more visible"),
+        geodesic_row(),
+        spectral_row(),
     };
     return methods;
 }
