@@ -170,7 +170,8 @@ def _strongest(job: Job, site: Site, first: float | None) -> float | None:
     elsewhere too strong.
     """
     least, most = STRENGTHS.get(job.method, STRENGTHS[METHODS[job.method][1]])
-    strength, low, high, kept, seen = first or most, 0.0, math.inf, 0.0, False
+    strength, low, high, kept = first or most, 0.0, math.inf, 0.0
+    seen: list[tuple[float, float]] = []  # strengths of marks that read, and what they distort
     for _ in range(STEPS):
         excess = _excess(job, strength, site)
         if excess == math.inf and strength == first:  # too weak or too strong: the top tells
@@ -182,15 +183,33 @@ def _strongest(job: Job, site: Site, first: float | None) -> float | None:
             low = strength
         else:
             high = strength
-        seen = seen or excess < math.inf
+        if excess < math.inf:
+            seen.append((strength, excess))
         if 1 - CLOSE <= excess <= 1 or kept == most or high < (1 + CLOSE) * kept:
             break
-        strength = min(most, strength * (1 - CLOSE / 2) / excess)
+        strength = min(most, _aimed(seen))
         if not low < strength < high:
             strength = math.sqrt(low * high) if low else high / 2
         if strength < least:
             break
     return kept or None
+
+
+def _aimed(seen: list[tuple[float, float]]) -> float:
+    """The strength just within the limits, where distortion is a line through the last two; in proportion to the last
+    where there is no other, or the line does not rise from above nothing.
+    """
+    aim = 1 - CLOSE / 2
+    if not seen:
+        return 0.0
+    strength, excess = seen[-1]
+    if len(seen) > 1:
+        before, more = seen[-2]
+        rise = (more - excess) / (before - strength)
+        line = strength + (aim - excess) / rise if rise > 0 else 0.0
+        if line > 0:
+            return line
+    return strength * aim / excess
 
 
 def _excess(job: Job, strength: float, site: Site) -> float:

@@ -151,7 +151,7 @@ def test_job_that_fails_is_recorded_and_the_rest_goes_on(tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize(("weakest", "most"), [(0.001, 0.3), (0.03, 0.3), (0.14, 0.3), (0.01, 0.12), (0.01, 0.08)])
-@pytest.mark.parametrize("power", [0.5, 1, 2])
+@pytest.mark.parametrize("power", [0.1, 0.5, 1, 2])
 @pytest.mark.parametrize("first", [None, 0.14, 0.16, 0.02, 0.3])
 def test_strength_is_the_strongest_within_the_limits(
     first: float | None, weakest: float, most: float, power: float, monkeypatch: pytest.MonkeyPatch
@@ -168,8 +168,10 @@ def test_strength_is_the_strongest_within_the_limits(
     monkeypatch.setattr(work, "_excess", excess)
     job = Job(kind="embed", mesh="m", mesh_digest="", plugin_digest="", method="L-MMean", limits=(("mrms", 1.0),))
     best = min(most, 0.15)
-    assert 0.98 * best <= work._strongest(job, Site(Path(), Path(), Path()), first) <= best
-    assert len(asked) <= 16
+    found = work._strongest(job, Site(Path(), Path(), Path()), first)
+    assert found <= best
+    assert found >= 0.98 * best or (found / 0.15) ** power >= 1 - work.CLOSE
+    assert len(asked) <= 14
 
 
 def test_each_key_keeps_the_limits(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
