@@ -37,7 +37,7 @@ struct Judgement {
     /// Of a list of expected messages.
     struct Match {
         std::size_t candidate = 0;
-        double log10_p = 0;   ///< of a list times its length, and a bound beside another random message, too
+        double log10_p = 0;   ///< of a list times twice its length, and a bound beside another random message, too
         double runner_up = 0; ///< of the next, likewise
     };
 
