@@ -185,13 +185,12 @@ def _strongest(job: Job, site: Site, first: float | None) -> float | None:
             high = strength
         if excess < math.inf:
             seen.append((strength, excess))
-        if 1 - CLOSE <= excess <= 1 or kept == most or high < (1 + CLOSE) * kept:
+        if 1 - CLOSE <= excess <= 1 or kept == most or high < (1 + CLOSE) * low or high == least:
             break
         strength = min(most, _aimed(seen))
         if not low < strength < high:
             strength = math.sqrt(low * high) if low else high / 2
-        if strength < least:
-            break
+        strength = max(least, strength)
     return kept or None
 
 

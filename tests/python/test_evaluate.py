@@ -174,6 +174,18 @@ def test_strength_is_the_strongest_within_the_limits(
     assert len(asked) <= 14
 
 
+@pytest.mark.parametrize("limit", [0.002, 0.0021, 0.0024, 0.004])
+@pytest.mark.parametrize("power", [0.1, 0.3, 0.5, 1, 2])
+def test_the_weakest_marks_are_found(power: float, limit: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where a line through two stronger marks leads below the least strength, that is tried."""
+    monkeypatch.setattr(work, "_excess", lambda _job, strength, _site: (strength / limit) ** power)
+    job = Job(kind="embed", mesh="m", mesh_digest="", plugin_digest="", method="L-MMean", limits=(("mrms", 1.0),))
+    found = work._strongest(job, Site(Path(), Path(), Path()), None)
+    assert found is not None
+    assert found <= limit
+    assert found >= 0.98 * limit or (found / limit) ** power >= 1 - work.CLOSE
+
+
 def test_each_key_keeps_the_limits(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """Each with a strength of its own, which is the same whichever is sought first."""
     worth = [1.0, 1.4, 0.6]
