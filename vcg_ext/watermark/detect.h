@@ -2,16 +2,11 @@
 #pragma once
 #include "../base/progress.h"
 #include "../key/key.h"
-#include "../method/methods.h"
 #include "options.h"
 #include "report.h"
-
-#include <functional>
+#include "trial.h"
 
 namespace vcg_ext {
-
-/// What one layer reads of a surface by a plan.
-using LayerReader = std::function<Readings(const MethodRow& method, const Plan& plan)>;
 
 /// Reads and judges by whatever reader: numbers of carriers, layers, probabilities, the verdict.
 /// \param site_of_vertex of the surface that is read, see Welded
