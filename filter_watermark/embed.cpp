@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "corner_data.h"
 #include "layer.h"
 #include "report.h"
 #include "shared_parameters.h"

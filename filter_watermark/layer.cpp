@@ -3,12 +3,9 @@
 
 #include <vcg_ext/base/error.h>
 #include <vcg_ext/base/parallel.h>
-#include <vcg_ext/base/prefetch.h>
 
 #include <Eigen/SVD>
 #include <algorithm>
-#include <cmath>
-#include <type_traits>
 
 MeshModel& current_layer_or_error(MeshDocument& document)
 {
@@ -151,129 +148,12 @@ void put_points(MeshModel& layer, const vcg_ext::Points& points)
     });
 }
 
-/// The corners with their shares in the vertices' normals: the face's normal, weighted by the angle.
-std::array<NormalShares::Corner, 3> corners_of(CFaceO& face)
-{
-    const Point3m& normal = face.N();
-    const auto edge = [&](int j) { return (face.cP((j + 1) % 3) - face.cP(j)).Normalize(); };
-    const Point3m e0 = edge(0);
-    const Point3m e1 = edge(1);
-    const Point3m e2 = edge(2);
-    return {{{face.V(0), normal * vcg::AngleN(e0, -e2)},
-             {face.V(1), normal * vcg::AngleN(-e0, e1)},
-             {face.V(2), normal * vcg::AngleN(-e1, e2)}}};
-}
-
-/// What MeshLab's own update does on one core, with the same sums in the same order, on all of them.
-void update_box_and_normals(CMeshO& mesh, NormalShares& shares)
-{
-    mesh.bbox = vcg_ext::ordered_fold(
-        int(mesh.vert.size()), Box3m(),
-        [&mesh](Box3m& box, int v) {
-            if (!mesh.vert[v].IsD())
-                box.Add(mesh.vert[v].cP());
-        },
-        [](Box3m& box, const Box3m& part) { box.Add(part); });
-    std::fill(shares.begun.begin(), shares.begun.end(), 0);
-    const CVertexO* middle = mesh.vert.data() + mesh.vert.size() / 2;
-    for (std::size_t first = 0; first < mesh.face.size(); first += NormalShares::faces) {
-        const int count = int(std::min<std::size_t>(NormalShares::faces, mesh.face.size() - first));
-        vcg_ext::for_each_index(count, [&](int i) {
-            CFaceO& face = mesh.face[first + i];
-            if (i + vcg_ext::elements_ahead < count)
-                for (int corner = 0; corner < 3; ++corner)
-                    vcg_ext::prefetch(mesh.face[first + i + vcg_ext::elements_ahead].cV(corner));
-            if (face.IsD()) {
-                for (NormalShares::Corner& corner : shares.corners[i])
-                    corner.vertex = nullptr;
-                return;
-            }
-            face.N() = vcg::TriangleNormal(face).Normalize();
-            shares.corners[i] = corners_of(face);
-        });
-        vcg_ext::for_chunks(2, 1, [&](int half, int) { // of the vertices, each with its terms in order
-            for (int i = 0; i < count; ++i) {
-                if (i + vcg_ext::elements_ahead < count)
-                    for (const auto& later : shares.corners[i + vcg_ext::elements_ahead])
-                        vcg_ext::prefetch(later.vertex);
-                for (const auto& [vertex, share] : shares.corners[i]) {
-                    if (!vertex || (vertex < middle) != (half == 0))
-                        continue;
-                    char& begun = shares.begun[vertex - mesh.vert.data()];
-                    vertex->N() = begun ? vertex->N() + share : share;
-                    begun = 1;
-                }
-            }
-        });
-    }
-}
-
 } // namespace
 
 void write_positions(MeshModel& layer, const vcg_ext::Points& points, NormalShares& shares)
 {
     put_points(layer, points);
     update_box_and_normals(layer.cm, shares);
-}
-
-namespace {
-
-/// Calls `visit(value)` for all that a corner shows of a layer's kinds of data.
-template <class Visit>
-void visit_corner(const MeshModel& layer, CFaceO& face, int corner, const Visit& visit)
-{
-    CVertexO& vertex = *face.V(corner);
-    if (layer.hasDataMask(MeshModel::MM_VERTCOLOR))
-        for (int i = 0; i < 4; ++i)
-            visit(vertex.C()[i]);
-    if (layer.hasDataMask(MeshModel::MM_VERTQUALITY))
-        visit(vertex.Q());
-    const auto visit_texture = [&visit](auto& place) {
-        visit(place.U());
-        visit(place.V());
-        visit(place.N());
-    };
-    if (layer.hasDataMask(MeshModel::MM_VERTTEXCOORD))
-        visit_texture(vertex.T());
-    if (layer.hasDataMask(MeshModel::MM_WEDGTEXCOORD))
-        visit_texture(face.WT(corner));
-}
-
-/// The same for all corners of faces that are not deleted, in order.
-template <class Visit>
-void visit_corners(MeshModel& layer, const Visit& visit)
-{
-    for (CFaceO& face : layer.cm.face)
-        for (int corner = 0; corner < 3 && !face.IsD(); ++corner)
-            visit_corner(layer, face, corner, visit);
-}
-
-} // namespace
-
-vcg_ext::CornerValues read_corner_values(MeshModel& layer)
-{
-    vcg_ext::CornerValues values;
-    if (!layer.hasDataMask(MeshModel::MM_VERTCOLOR) && !layer.hasDataMask(MeshModel::MM_VERTQUALITY) &&
-        !has_texture(layer))
-        return values;
-    visit_corners(layer, [&values](const auto& value) { values.values.push_back(double(value)); });
-    values.channels = int(values.values.size() / std::size_t(3 * std::max(1, layer.cm.fn)));
-    return values;
-}
-
-void write_corner_values(MeshModel& layer, const vcg_ext::CornerValues& values)
-{
-    auto next = values.values.begin();
-    visit_corners(layer, [&next](auto& value) {
-        using Value = std::decay_t<decltype(value)>;
-        value = Value(std::is_integral_v<Value> ? std::round(*next) : *next);
-        ++next;
-    });
-}
-
-bool has_texture(const MeshModel& layer)
-{
-    return layer.hasDataMask(MeshModel::MM_VERTTEXCOORD) || layer.hasDataMask(MeshModel::MM_WEDGTEXCOORD);
 }
 
 void write_classes(MeshModel& layer, const std::vector<int>& class_of_vertex)

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "host.h"
+#include "normals.h"
 
-#include <vcg_ext/geometry/corner_values.h>
+#include <vcg_ext/base/surface.h>
 
 /// The current layer. \throw vcg_ext::Error where the document has none
 MeshModel& current_layer_or_error(MeshDocument& document);
@@ -34,34 +35,11 @@ vcg_ext::Surface read_surface(const MeshModel& layer);
 /// The same with its matrix, or without.
 vcg_ext::Surface read_surface(const MeshModel& layer, bool with_matrix);
 
-/// The memory that new normals need. What has it before the mesh is changed, or a report written, cannot fail afterwards.
-struct NormalShares {
-    static constexpr int faces = 1 << 15; ///< at a time
-
-    struct Corner {
-        CVertexO* vertex = nullptr;
-        Point3m share;
-    };
-
-    explicit NormalShares(std::size_t vertices) : corners(faces), begun(vertices) {}
-
-    std::vector<std::array<Corner, 3>> corners;
-    std::vector<char> begun; ///< per vertex whether its sum has a first term
-};
-
 /// Gives the vertices that are not deleted the positions that read_surface() gave, changed, in order. All else stays;
 /// normals and box follow. A matrix that stretches becomes the identity: the positions have it in them, and files are
 /// written without a matrix, so that what is seen, saved and read is one body.
 /// \param shares of as many vertices as the layer has, deleted ones too
 void write_positions(MeshModel& layer, const vcg_ext::Points& points, NormalShares& shares);
-
-/// What the layer's faces show that must not slide along with the vertices under it: colours and quality of vertices,
-/// texture coordinates of vertices and wedges. No channels where it has none of these.
-vcg_ext::CornerValues read_corner_values(MeshModel& layer);
-void write_corner_values(MeshModel& layer, const vcg_ext::CornerValues& values);
-
-/// Whether the layer has texture coordinates.
-bool has_texture(const MeshModel& layer);
 
 /// Gives the vertices that are not deleted a quality each, in order, and colours from it: a colour of its own for each
 /// whole number, grey for -1.
