@@ -110,42 +110,48 @@ std::vector<Part> for_all_ways(const WaveReading& reading, const std::vector<dou
     return parts;
 }
 
+/// Keeps the best, the best first; of equals the earlier.
+void keep(std::vector<WavePresence::Found>& best, const WavePresence::Found& one)
+{
+    if (best.size() == WavePresence::most_kept) {
+        if (!(one.share > best.back().share))
+            return;
+        best.pop_back();
+    }
+    const auto after =
+        std::find_if(best.begin(), best.end(), [&](const auto& other) { return other.share < one.share; });
+    best.insert(after, one);
+}
+
 } // namespace
 
 WavePresence wave_presence(const WaveReading& reading)
 {
     struct Part {
-        double evidence = -never;
-        double best = never;
-        WaveWay way;
+        double log_evidence = -never;
+        std::vector<WavePresence::Found> best;
     };
     const int count = static_cast<int>(reading.views.front().phase.size());
     const CosineTail& tail = cosine_tail(count);
     const auto parts = for_all_ways<Part>(reading, std::vector<double>(count, 0),
                                           [&](Part& part, const WaveWay& way, double gathered, double) {
-                                              const double bound = tail(gathered) - way.log_weight;
-                                              if (bound < part.best) {
-                                                  part.best = bound;
-                                                  part.way = way;
-                                              }
-                                              const double share = -bound;
-                                              if (share > part.evidence - 40)
-                                                  part.evidence = log_add(part.evidence, share);
+                                              const double share = way.log_weight - tail(gathered);
+                                              keep(part.best, {share, way});
+                                              if (share > part.log_evidence - 40)
+                                                  part.log_evidence = log_add(part.log_evidence, share);
                                           });
     WavePresence result;
-    double best = never;
     result.log_evidence = -never;
     for (const Part& part : parts) {
-        result.log_evidence = log_add(result.log_evidence, part.evidence);
-        if (part.best < best) {
-            best = part.best;
-            result.way = part.way;
-        }
+        result.log_evidence = log_add(result.log_evidence, part.log_evidence);
+        for (const WavePresence::Found& found : part.best)
+            keep(result.best, found);
     }
+    const WaveWay& way = result.best.front().way;
     double gathered = 0;
-    for (const double y : wave_phases(reading, result.way))
+    for (const double y : wave_phases(reading, way))
         gathered += cosine(4 * pi * y);
-    result.log_p = std::min(0.0, log_tail_of_cosines(count, gathered) - result.way.log_weight);
+    result.log_p = std::min(0.0, log_tail_of_cosines(count, gathered) - way.log_weight);
     return result;
 }
 
@@ -219,27 +225,13 @@ std::vector<double> wave_soft(const std::vector<double>& phases)
 
 std::vector<WaveSoft> wave_ways(const WaveReading& reading, const WavePresence& presence, int most)
 {
-    struct Found {
-        double log_weight = 0;
-        WaveWay way;
-    };
-    using Part = std::vector<Found>;
-    const int count = static_cast<int>(reading.views.front().phase.size());
-    const CosineTail& tail = cosine_tail(count);
-    const auto parts = for_all_ways<Part>(
-        reading, std::vector<double>(count, 0), [&](Part& part, const WaveWay& way, double gathered, double) {
-            const double log_weight = way.log_weight - tail(gathered) - presence.log_evidence;
-            if (log_weight > -16)
-                part.push_back({log_weight, way});
-        });
-    std::vector<Found> all;
-    for (const Part& part : parts)
-        all.insert(all.end(), part.begin(), part.end());
-    std::stable_sort(all.begin(), all.end(),
-                     [](const Found& a, const Found& b) { return a.log_weight > b.log_weight; });
     std::vector<WaveSoft> ways;
-    for (std::size_t i = 0; i < all.size() && static_cast<int>(i) < most; ++i)
-        ways.push_back({std::exp(all[i].log_weight), wave_soft(wave_phases(reading, all[i].way))});
+    for (const auto& [share, way] : presence.best) {
+        const double log_weight = share - presence.log_evidence;
+        if (static_cast<int>(ways.size()) == most || log_weight <= -16)
+            break;
+        ways.push_back({std::exp(log_weight), wave_soft(wave_phases(reading, way))});
+    }
     return ways;
 }
 

@@ -3,13 +3,23 @@
 #include "../payload/message.h"
 #include "wave_reading.h"
 
+#include <vector>
+
 namespace vcg_ext {
 
 /// What the key alone says: whether phases gather at bits, whichever these are.
 struct WavePresence {
+    /// A way with the natural logarithm of weight / tail.
+    struct Found {
+        double share = 0;
+        WaveWay way;
+    };
+
+    static constexpr std::size_t most_kept = 10;
+
     double log_p = 0;        ///< natural logarithm of a true bound of the probability without this mark
     double log_evidence = 0; ///< of the sum over ways of weight / tail
-    WaveWay way;             ///< the best; chosen without a look at any bit
+    std::vector<Found> best; ///< at least one, and most_kept at most, the best first; chosen without a look at any bit
 };
 
 /// min over ways of tail(S) / weight, S = sum of cos 4 pi y_k: the dithers are secret, so without this mark y is
@@ -39,7 +49,7 @@ struct WaveSoft {
     std::vector<double> soft; ///< log-likelihood ratio of coded bit 1 against 0, by wave
 };
 
-/// The `most` best ways, by weight / tail of wave_presence(), the best first.
+/// The `most` best ways, by weight / tail, the best first; at most what wave_presence() kept.
 [[nodiscard]] std::vector<WaveSoft> wave_ways(const WaveReading& reading, const WavePresence& presence, int most);
 
 /// Log-likelihood ratios of coded bit 1 against 0: -2 k cos 2 pi y_k, with the concentration k at which cos 4 pi y_k
