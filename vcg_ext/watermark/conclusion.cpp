@@ -102,7 +102,7 @@ std::optional<Said> said_of_carriers(const Trial& trial)
     for (const LayerReading& layer : trial.layers) {
         const double usual = row_of(layer.method).unmarked_strength;
         const double presence = trial.after_share(layer.readings.presence.value_or(0));
-        if (presence < sure)
+        if (presence < log10_sure)
             return Said{Verdict::NoMessage, std::string("no message: marked with this key by ") + name(layer.method) +
                                                 " (" + chance(presence) + "), but no message is read for certain."};
         if (const double strength = mean_strength(layer); usual > 0 && strength > usual)
@@ -130,14 +130,14 @@ void give_verdict(const DetectOptions& options, const Search& search, DetectRepo
     const Judgement& judgement = search.best.judgement;
     const Message* expected = options.expected.empty() ? nullptr : &options.expected[judgement.match->candidate];
     result.p_message = probability(search.log10_any);
-    result.verified = search.log10_any < sure;
+    result.verified = search.log10_any < log10_sure;
     if (result.verified)
         result.message = show_message(judgement.best.bits, judgement.best.kind);
     const bool same = !expected || expected->kind == Kind::Bits || !result.verified ||
                       trimmed(judgement.best.bits) == trimmed(expected->bits);
     if (expected) {
         result.p_value = probability(search.log10_expected);
-        result.present = search.log10_expected < sure && same;
+        result.present = search.log10_expected < log10_sure && same;
     }
     std::optional<Said> said = said_of_message(expected, same, search, result);
     if (!said)

@@ -2,9 +2,9 @@
 #pragma once
 #include "../base/progress.h"
 #include "../key/key.h"
+#include "layer_reading.h"
 #include "options.h"
 #include "report.h"
-#include "trial.h"
 
 namespace vcg_ext {
 

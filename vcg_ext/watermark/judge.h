@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "../carrier/reading.h"
-#include "../method/method.h"
 #include "../payload/message_text.h"
+#include "layer_reading.h"
 
 #include <optional>
 
 namespace vcg_ext {
-
-/// What one method read of a surface, and the mask of its bits.
-struct LayerReading {
-    Method method{};
-    Readings readings;
-    Bits mask;
-};
 
 /// What the readings come to, the mask lifted. Probabilities as log10 of true bounds.
 struct Judgement {

@@ -71,6 +71,7 @@ std::vector<LayerReading> read_layers(const LayerReader& read, const Key& key, C
         warnings.insert(warnings.end(), layer.readings.warnings.begin(), layer.readings.warnings.end());
     return layers;
 }
+
 /// log10 p of the expected message, or of any.
 double log10_p(const Trial& trial, bool expected)
 {
@@ -91,7 +92,7 @@ double loudness(const Trial& trial)
 {
     const double any = log10_p(trial, false);
     const double message = trial.judgement.match ? std::min(any, log10_p(trial, true)) : any;
-    return message < sure ? message : std::max(sure, std::min(message, log10_presence(trial)));
+    return message < log10_sure ? message : std::max(log10_sure, std::min(message, log10_presence(trial)));
 }
 
 Trial try_count(const LayerReader& read, const Key& key, const DetectOptions& options, const Count& count)
@@ -124,7 +125,7 @@ Search try_counts(const LayerReader& read, const Key& key, const DetectOptions& 
             result.log10_expected = std::min(result.log10_expected, log10_p(trial, true));
         if (!best || loudness(trial) < loudness(*best))
             best = std::move(trial);
-        if (result.log10_any < sure || result.log10_expected < sure)
+        if (result.log10_any < log10_sure || result.log10_expected < log10_sure)
             break; // weights were fixed before looking, so to stop here is no choice
     }
     if (!best)

@@ -2,22 +2,17 @@
 #pragma once
 #include "../base/progress.h"
 #include "../key/key.h"
-#include "../method/methods.h"
 #include "judge.h"
 #include "options.h"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <string>
 #include <vector>
 
 namespace vcg_ext {
 
-/// What one layer reads of a surface by a plan.
-using LayerReader = std::function<Readings(const MethodRow& method, const Plan& plan)>;
-
-constexpr double sure = -6; ///< log10 of the probability below which a finding is told as one
+constexpr double log10_sure = -6; ///< of the probability below which a finding is told as one
 
 /// How often carriers are counted, and what share of the doubt each count may use.
 struct Count {
