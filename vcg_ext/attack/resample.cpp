@@ -44,7 +44,9 @@ Surface resample(const Surface& surface, int vertices, const Progress& progress)
     if (vertices < 4)
         throw Error("That would leave " + std::to_string(vertices) +
                     " vertices, and a surface of fewer than 4 holds nothing. Keep a larger part.");
-    double length = edge_for(surface_area(surface), vertices);
+    // Remeshing gives up to 3 % fewer than evenly spread ones, or more where creases want them: one try is mostly enough.
+    double length = 0.97 * edge_for(surface_area(surface), vertices);
+    constexpr double most_to_collapse = 1.15;
     constexpr int tries = 8;
     for (int i = 0; i < tries; ++i) {
         Surface even = remesh(surface, length, remesh_iterations,
@@ -52,7 +54,7 @@ Surface resample(const Surface& surface, int vertices, const Progress& progress)
         if (even.points.empty())
             break;
         const double ratio = static_cast<double>(even.points.size()) / vertices;
-        if (ratio >= 1 && (ratio <= 1.1 || i >= tries / 2))
+        if (ratio >= 1 && (ratio <= most_to_collapse || i >= tries / 2))
             even = down_to(std::move(even), vertices, progress);
         if (std::abs(static_cast<double>(even.points.size()) - vertices) <= 0.01 * vertices)
             return even;
