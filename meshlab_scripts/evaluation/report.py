@@ -70,6 +70,9 @@ def _errors_of_detection(experiment: str, frame: pd.DataFrame, folder: Path) -> 
 
 def _robustness(protocol: Protocol, experiment: str, frame: pd.DataFrame, folder: Path) -> list[str]:
     parts = []
+    if text := tables.within_limits(frame, experiment):
+        _write(folder / "tables" / f"within-limits-{experiment}.md", text)
+        parts += [f"## Marks within the limits ({experiment})", text]
     values = [value for value in ROBUSTNESS if value.startswith("log10")]
     if text := tables.found(frame, experiment, values):
         _write(folder / "tables" / f"found-{experiment}.md", text)

@@ -33,7 +33,8 @@ def table(spec: Spec, frame: pd.DataFrame) -> str:
 def _measure(spec: Spec, frame: pd.DataFrame) -> dict[str, Cells]:
     require(frame, [*spec["rows"], *(column["value"] for column in spec["columns"])], f"table {spec['name']!r}")
     rows = {}
-    for row in select(frame, spec["experiment"])[spec["rows"]].drop_duplicates().itertuples(index=False):
+    marks = select(frame, spec["experiment"])[spec["rows"]].drop_duplicates().sort_values(spec["rows"])
+    for row in marks.itertuples(index=False):
         fixed = dict(zip(spec["rows"], row, strict=True))
         cells = []
         for column in spec["columns"]:
@@ -106,6 +107,21 @@ def _attacked(frame: pd.DataFrame, experiment: str) -> tuple[pd.DataFrame, list[
     choices = chosen.groupby("method")[["bits", "strength", "limits"]].nunique().max()
     varied = list(choices[choices > 1].index)
     return chosen, varied, [method for method in METHODS if method in set(asked["method"])]
+
+
+def within_limits(frame: pd.DataFrame, experiment: str) -> str:
+    """How many marks keep each limit, of how many that were sought, mesh by mesh; empty where there are no limits."""
+    sought = frame[(frame["experiment"] == experiment) & (frame["kind"] == "embed") & (frame["limits"] != "")]
+    if sought.empty:
+        return ""
+    methods = [method for method in METHODS if method in set(sought["method"])]
+    made = sought["error"].eq("").groupby([sought[name] for name in ["limits", "mesh", "method"]])
+    counts = made.agg(["sum", "count"])
+    lines = [["limits", "mesh", *methods]]
+    for at in dict.fromkeys(index[:-1] for index in counts.index):
+        cells = [counts.loc[(*at, method)] if (*at, method) in counts.index else None for method in methods]
+        lines.append([*at, *("–" if cell is None else f"{cell['sum']} of {cell['count']}" for cell in cells)])
+    return grid(lines)
 
 
 FOUND = -6  # log10 p from which a mark is called found

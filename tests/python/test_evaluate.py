@@ -28,7 +28,7 @@ from evaluation.frames import WAYS, frames, shift  # noqa: E402
 from evaluation.jobs import Job, Site  # noqa: E402
 from evaluation.protocol import ProtocolError, read_protocol  # noqa: E402
 from evaluation.results import limits_in_words  # noqa: E402
-from evaluation.tables import found, robustness, table  # noqa: E402
+from evaluation.tables import found, robustness, table, within_limits  # noqa: E402
 
 
 def command(protocol: str | Path, work: Path) -> list[str]:
@@ -67,7 +67,7 @@ def test_smoke_is_complete(smoke: tuple[Path, pd.DataFrame]) -> None:
     report = (work / "smoke" / "report.md").read_text(encoding="utf-8")
     for heading in ("Table 5.3", "Figure 5.8", "False positives and false negatives", "Detection ratio after every",
                     "log10 p of the message that is known", "log10 p of what the key alone reads", "Found (channels)",
-                    "log10 p of what key and original read"):  # fmt: skip
+                    "log10 p of what key and original read", "Marks within the limits (equal-msdm)"):  # fmt: skip
         assert f"## {heading}" in report
     for picture in ("figure-5.8", "three-in-a-row", "errors-robustness"):
         assert f"figures/{picture}.png" in report
@@ -376,6 +376,24 @@ def test_share_of_marks_that_are_found() -> None:
         "| MSDM at most 0.2 | noise | – | 100 / 100 | 0 / 0 |",
     ]
     assert found(pd.DataFrame(rows[-1:]), "e", ["log10_p"]) == ""
+
+
+def test_marks_within_the_limits_are_counted() -> None:
+    row = {"experiment": "e", "kind": "embed", "error": "", "mesh": "m", "method": "Waves"}
+    at, beyond = {"limits": "MSDM at most 0.1"}, {"limits": "MSDM at most 0.2"}
+    rows = [
+        {**row, **at},
+        {**row, **at, "error": "No strength"},
+        {**row, **beyond, "mesh": "n", "method": "Layered", "error": "No strength"},
+        {**row, **beyond, "kind": "attack"},
+    ]
+    assert within_limits(pd.DataFrame(rows), "e").splitlines() == [
+        "| limits | mesh | Layered | Waves |",
+        "| --- | ---: | ---: | ---: |",
+        "| MSDM at most 0.1 | m | – | 1 of 2 |",
+        "| MSDM at most 0.2 | n | 0 of 1 | – |",
+    ]
+    assert within_limits(pd.DataFrame([{**row, "limits": ""}]), "e") == ""
 
 
 def test_limits_are_words_and_sort_by_number() -> None:
