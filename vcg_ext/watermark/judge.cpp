@@ -134,7 +134,8 @@ public:
         }
     }
 
-    /// Looks for one message, in all views.
+    /// Looks for one message, in all views. Beside another message two layers are no two witnesses: both carry it, so they
+    /// agree in what they say of this one. A bit of two layers is therefore one coin, as heavy as their sum.
     void match_one(const Message& expected)
     {
         const Bits coded = codes_.encode(expected);
@@ -155,19 +156,17 @@ public:
             const Judgement::View& view = result.views[v];
             const bool alone = is_alone(view);
             const auto& knows_better = layers_[view.layer].readings.match;
-            if (!alone || !knows_better)
-                consider(SignTail(view.soft).log10_p(agreement(repeated(coded, view.soft.size()), view.soft)) -
-                             std::log10(view.weight),
-                         v, alone);
-            else if (view.blind) // once for all ways
+            if (!alone || !knows_better) {
+                const std::vector<double> coins = summed(view.soft, carriers_);
+                consider(SignTail(coins).log10_p(agreement(coded, coins)) - std::log10(view.weight), v, alone);
+            } else if (view.blind) // once for all ways
                 consider(knows_better(masked(coded, layers_[view.layer].mask)) + std::log10(kinds_), v, true);
         }
         conclude({0, best, 0}, loudest);
     }
 
     /// Looks for each of a list, in the blind views, and by the count alone: the bound of Chernoff costs a search for
-    /// each. Who asks whose message it is holds against each that it is another's; and two layers that carry another's
-    /// agree in what they say of anybody. So a bit of two layers is one coin here, as heavy as their sum.
+    /// each. Who asks whose message it is holds against each that it is another's.
     void match_list(const std::vector<Message>& expected)
     {
         struct Coins {

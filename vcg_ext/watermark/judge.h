@@ -26,10 +26,10 @@ struct Judgement {
         Kind kind = Kind::Text;
     };
 
-    /// Of a list of expected messages.
+    /// Of the expected message, or of a list.
     struct Match {
         std::size_t candidate = 0;
-        double log10_p = 0;   ///< of a list times twice its length, and a bound beside another random message, too
+        double log10_p = 0;   ///< of a list times twice its length; beside another random message a bound, too
         double runner_up = 0; ///< of the next, likewise
     };
 

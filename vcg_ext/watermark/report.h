@@ -97,8 +97,9 @@ struct DetectReport {
     /// Carriers that match those of the expected message, over all; one that the surface says nothing of counts a half.
     std::optional<double> detection_ratio;
     /// With an expected message: a true upper bound of the probability that a mesh without a mark of this key, or
-    /// marked with another, matches as well by chance. Of a list: that any of its messages does; and, drawn at random,
-    /// beside any other message of this key.
+    /// marked with another, matches as well by chance; of a list: that any of its messages does. Where the mesh has
+    /// another message of this key, one that was drawn at random matches as well at most twice as often, and none of a
+    /// list more often.
     std::optional<double> p_value;
     std::optional<double> p_binomial;  ///< the same by counting matches of what is read, as the literature does
     std::optional<bool> present;       ///< p_value below 1e-6, and no other message verified
