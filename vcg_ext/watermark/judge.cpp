@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace vcg_ext {
 
@@ -70,6 +71,12 @@ bool explains(const Bits& coded, const std::vector<double>& soft, int bits)
     for (std::size_t k = 0; k < soft.size(); ++k)
         gain += ln_2 - std::log1p(std::exp(coded[k] ? -soft[k] : soft[k]));
     return gain > 0;
+}
+
+/// log10 p that the signs agree so well with a coded word, which is repeated where there are more of them.
+double log10_of_signs(const Bits& coded, const std::vector<double>& soft)
+{
+    return SignTail(soft).log10_p(agreement(repeated(coded, soft.size()), soft));
 }
 
 /// The best message of all lengths that a reader with the key alone tries, in one view as if there were no other.
@@ -135,32 +142,30 @@ public:
     }
 
     /// Looks for one message, in all views. Beside another message two layers are no two witnesses: both carry it, so they
-    /// agree in what they say of this one. A bit of two layers is therefore one coin, as heavy as their sum.
+    /// agree in what they say of this one. In its p a bit of two layers is therefore one coin, as heavy as their sum; how
+    /// loud a view is, which is to be shown, both say.
     void match_one(const Message& expected)
     {
         const Bits coded = codes_.encode(expected);
         result.match_of_layer.assign(layers_.size(), 0);
         double best = 0;
-        std::size_t loudest = result.view;
-        const auto consider = [&](double log10_p, std::size_t view, bool alone) {
-            if (alone) {
-                double& of_layer = result.match_of_layer[result.views[view].layer];
-                of_layer = std::min(of_layer, by_itself(log10_p));
-            }
-            if (log10_p < best) {
-                best = log10_p;
-                loudest = view;
-            }
-        };
+        Loudest loudest{0, result.view};
         for (std::size_t v = 0; v < result.views.size(); ++v) {
             const Judgement::View& view = result.views[v];
-            const bool alone = is_alone(view);
             const auto& knows_better = layers_[view.layer].readings.match;
-            if (!alone || !knows_better) {
-                const std::vector<double> coins = summed(view.soft, carriers_);
-                consider(SignTail(coins).log10_p(agreement(coded, coins)) - std::log10(view.weight), v, alone);
-            } else if (view.blind) // once for all ways
-                consider(knows_better(masked(coded, layers_[view.layer].mask)) + std::log10(kinds_), v, true);
+            if (is_alone(view) && knows_better && !view.blind)
+                continue; // it is asked once, for all ways
+            double log10_p = is_alone(view) && knows_better
+                                 ? knows_better(masked(coded, layers_[view.layer].mask)) + std::log10(kinds_)
+                                 : log10_of_signs(coded, view.soft) - std::log10(view.weight);
+            loudest = std::min(loudest, Loudest{log10_p, v});
+            if (is_alone(view)) {
+                double& of_layer = result.match_of_layer[view.layer];
+                of_layer = std::min(of_layer, by_itself(log10_p));
+            } else {
+                log10_p = log10_of_signs(coded, summed(view.soft, carriers_)) - std::log10(view.weight);
+            }
+            best = std::min(best, log10_p);
         }
         conclude({0, best, 0}, loudest);
     }
@@ -186,7 +191,7 @@ public:
         Judgement::Match match;
         double best = 1;
         Bits best_coded;
-        std::size_t loudest = result.view;
+        std::size_t at_best = result.view;
         for (std::size_t c = 0; c < expected.size(); ++c) {
             if (static_cast<int>(expected[c].bits.size()) > carriers_)
                 continue; // no such mesh can hold it; it counts all the same
@@ -205,18 +210,20 @@ public:
                 best = p;
                 best_coded = coded;
                 match.candidate = c;
-                loudest = at;
+                at_best = at;
             } else {
                 match.runner_up = std::min(match.runner_up, p + many);
             }
         }
         match.log10_p = std::min(0.0, best + many);
-        conclude(match, loudest);
+        conclude(match, {match.log10_p, at_best});
     }
 
     Judgement result;
 
 private:
+    using Loudest = std::pair<double, std::size_t>; ///< log10 of a probability, and the view that it is of
+
     [[nodiscard]] bool is_alone(const Judgement::View& view) const
     {
         return static_cast<int>(view.soft.size()) == carriers_;
@@ -225,11 +232,11 @@ private:
     /// log10 p of a layer without the share that all views of all layers have. \param log10_p with it, not cut off at 0
     [[nodiscard]] double by_itself(double log10_p) const { return std::min(0.0, log10_p - std::log10(kinds_)); }
 
-    void conclude(const Judgement::Match& match, std::size_t loudest)
+    void conclude(const Judgement::Match& match, Loudest loudest)
     {
         result.match = match;
-        if (match.log10_p < result.best.log10_p)
-            result.view = loudest;
+        if (loudest.first < result.best.log10_p)
+            result.view = loudest.second;
     }
 
     const std::vector<LayerReading>& layers_;
