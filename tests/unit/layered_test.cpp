@@ -42,7 +42,7 @@ TEST(Layered, EachLayerReadsByItself)
         EXPECT_TRUE(*read(stego, layer).present) << name(layer);
     const DetectReport both = read(stego, Method::Layered);
     EXPECT_TRUE(*both.present);
-    EXPECT_LT(*both.p_value, *read(stego, Method::Waves).p_value);
+    EXPECT_LT(both.p_message, read(stego, Method::Waves).p_message);
     EXPECT_FALSE(both.carrier_of_vertex.empty());
 }
 
