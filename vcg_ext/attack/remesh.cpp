@@ -48,7 +48,7 @@ double faces_in_a_cell(const Surface& surface)
     const Eigen::AlignedBox3d box = bounding_box(surface);
     const Point extent = box.sizes();
     vcg::Point3i cells;
-    vcg::BestDim(static_cast<long long>(cells_per_face * surface.triangles.size()), to_vcg(extent), cells);
+    vcg::BestDim(cells_per_face * static_cast<long long>(surface.triangles.size()), to_vcg(extent), cells);
     std::vector<int> held(static_cast<std::size_t>(cells[0]) * cells[1] * cells[2], 0);
     for (const Triangle& t : surface.triangles) {
         const Point centre = (surface.points[t[0]] + surface.points[t[1]] + surface.points[t[2]]) / 3;
