@@ -2,6 +2,7 @@
 """Markdown tables: ours with the standard deviation over the keys, and the thesis' figure beside it in brackets."""
 
 import math
+from collections.abc import Callable
 
 import pandas as pd
 
@@ -117,11 +118,8 @@ def within_limits(frame: pd.DataFrame, experiment: str) -> str:
     methods = [method for method in METHODS if method in set(sought["method"])]
     made = sought["error"].eq("").groupby([sought[name] for name in ["limits", "mesh", "method"]])
     counts = made.agg(["sum", "count"])
-    lines = [["limits", "mesh", *methods]]
-    for at in dict.fromkeys(index[:-1] for index in counts.index):
-        cells = [counts.loc[(*at, method)] if (*at, method) in counts.index else None for method in methods]
-        lines.append([*at, *("–" if cell is None else f"{cell['sum']} of {cell['count']}" for cell in cells)])
-    return grid(lines)
+    rows = _by_method(counts, methods, lambda marks: f"{marks['sum']} of {marks['count']}")
+    return grid([["limits", "mesh", *methods], *rows])
 
 
 FOUND = -6  # log10 p from which a mark is called found
@@ -136,11 +134,17 @@ def found(frame: pd.DataFrame, experiment: str, values: list[str]) -> str:
     if not values:
         return ""
     shares = chosen[values].lt(FOUND).groupby([chosen[name] for name in [*varied, "series", "method"]]).mean() * 100
-    lines = [[*varied, "attack", *methods]]
-    for at in dict.fromkeys(index[:-1] for index in shares.index):
-        cells = [shares.loc[(*at, method)] if (*at, method) in shares.index else [] for method in methods]
-        lines.append([*map(str, at), *(" / ".join(f"{share:.0f}" for share in cell) or "–" for cell in cells)])
-    return grid(lines)
+    rows = _by_method(shares, methods, lambda of_values: " / ".join(f"{share:.0f}" for share in of_values))
+    return grid([[*varied, "attack", *methods], *rows])
+
+
+def _by_method(frame: pd.DataFrame, methods: list[str], cell: Callable[[pd.Series], str]) -> list[list[str]]:
+    """A row for each of what the index has before the method, and a cell for each method."""
+    rows = []
+    for at in dict.fromkeys(index[:-1] for index in frame.index):
+        cells = [cell(frame.loc[(*at, method)]) if (*at, method) in frame.index else "–" for method in methods]
+        rows.append([*map(str, at), *cells])
+    return rows
 
 
 def rates(frame: pd.DataFrame) -> str:
