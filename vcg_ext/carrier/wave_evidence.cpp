@@ -25,63 +25,107 @@ double log_add(double a, double b)
     return high == -never ? high : high + std::log1p(std::exp(std::min(a, b) - high));
 }
 
-/// One row of a view's grid, u by u, as complex numbers exp(2 pi i y_k) that turn by a step of u.
+/// The logarithm of a sum, of which the logarithms of the terms are known.
+class LogSum {
+public:
+    void add(double log_term)
+    {
+        if (log_term > highest_) {
+            sum_ = sum_ * std::exp(highest_ - log_term) + 1;
+            highest_ = log_term;
+        } else if (log_term > highest_ - 40) { // the others are below the rounding
+            sum_ += std::exp(log_term - highest_);
+        }
+    }
+
+    [[nodiscard]] double log() const { return highest_ + std::log(sum_); }
+
+private:
+    double highest_ = -never;
+    double sum_ = 0; ///< over exp(highest_)
+};
+
+/// One row of a view's grid, u by u: cos 2 pi y_k, by Chebyshev's cos(a + d) = 2 cos d cos a - cos(a - d).
 class RowScan {
 public:
     static constexpr int lanes = 8;
 
+    static std::size_t padded(std::size_t waves) { return (waves + lanes - 1) / lanes * lanes; }
+
     RowScan(const WaveReading& reading, const WaveWay& start, double step)
-        : padded_((reading.views[start.view].phase.size() + lanes - 1) / lanes * lanes), c_(padded_, 0), s_(padded_, 0),
-          turn_c_(padded_, 0), turn_s_(padded_, 0)
+        : size_(padded(reading.views[start.view].phase.size())), now_(size_, 0), other_(size_, 0), twice_(size_, 0)
     {
         const WaveView& view = reading.views[start.view];
         const std::vector<double>& along = start.undone < 0 ? view.relax : view.bend;
         const std::vector<double> y = wave_phases(reading, start);
-        for (std::size_t k = 0; k < y.size(); ++k) {
-            sine_cosine(2 * pi * y[k], s_[k], c_[k]);
-            turn_c_[k] = 1;
-            if (!along.empty())
-                sine_cosine(2 * pi * step * along[k], turn_s_[k], turn_c_[k]);
+        begin(y, along.empty() ? std::vector<double>(y.size(), 0) : along, step);
+    }
+
+    /// Sum of `signs[k]` cos. \param signs padded with zeros
+    [[nodiscard]] VCG_EXT_VECTORIZED double matched(const double* __restrict signs) const
+    {
+        const double* __restrict now = now_.data();
+        double sums[lanes] = {};
+        for (std::size_t k = 0; k < size_; k += lanes)
+            for (int j = 0; j < lanes; ++j)
+                sums[j] += signs[k + j] * now[k + j];
+        return total(sums);
+    }
+
+    /// Sum of cos^2; then a step of u.
+    [[nodiscard]] VCG_EXT_VECTORIZED double take()
+    {
+        const double* __restrict now = now_.data();
+        const double* __restrict twice = twice_.data();
+        double* __restrict other = other_.data();
+        double sums[lanes] = {};
+        for (std::size_t k = 0; k < size_; k += lanes)
+            for (int j = 0; j < lanes; ++j) {
+                sums[j] += now[k + j] * now[k + j];
+                other[k + j] = twice[k + j] * now[k + j] - other[k + j];
+            }
+        now_.swap(other_);
+        return total(sums);
+    }
+
+private:
+    VCG_EXT_VECTORIZED void begin(const std::vector<double>& phases, const std::vector<double>& along, double step)
+    {
+        const double* __restrict y = phases.data();
+        const double* __restrict turn = along.data();
+        double* __restrict now = now_.data();
+        double* __restrict other = other_.data();
+        double* __restrict twice = twice_.data();
+        const std::size_t count = phases.size();
+        for (std::size_t k = 0; k < count; ++k) {
+            double s, c, turn_s, turn_c;
+            sine_cosine(2 * pi * y[k], s, c);
+            sine_cosine(2 * pi * step * turn[k], turn_s, turn_c);
+            now[k] = c;
+            other[k] = c * turn_c + s * turn_s;
+            twice[k] = 2 * turn_c;
         }
     }
 
-    /// Sum of cos^2, and of `signs[k]` cos; then a step of u.
-    VCG_EXT_VECTORIZED void take(const double* signs, double& squares, double& matched)
+    static double total(const double (&sums)[lanes])
     {
-        double a[lanes] = {};
-        double b[lanes] = {};
-        double* __restrict c = c_.data();
-        double* __restrict s = s_.data();
-        const double* __restrict tc = turn_c_.data();
-        const double* __restrict ts = turn_s_.data();
-        for (std::size_t k = 0; k < padded_; k += lanes)
-            for (int j = 0; j < lanes; ++j) {
-                const double re = c[k + j];
-                const double im = s[k + j];
-                a[j] += re * re;
-                b[j] += signs[k + j] * re;
-                c[k + j] = re * tc[k + j] - im * ts[k + j];
-                s[k + j] = re * ts[k + j] + im * tc[k + j];
-            }
-        squares = ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7]));
-        matched = ((b[0] + b[1]) + (b[2] + b[3])) + ((b[4] + b[5]) + (b[6] + b[7]));
+        return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
     }
 
-    [[nodiscard]] std::size_t padded() const { return padded_; }
-
-private:
-    std::size_t padded_;
-    std::vector<double> c_, s_, turn_c_, turn_s_;
+    std::size_t size_;
+    std::vector<double> now_, other_, twice_; ///< `other` is a step before; twice the cosine of a step
 };
 
-/// Calls `visit(part, way, S2, S1)` for all ways, S2 = sum of cos 4 pi y and S1 = sum of signs cos 2 pi y; one part per
-/// row, and so the same at any number of threads.
+/// Calls `visit(part, way, S2, S1)` for all ways, S2 = sum of cos 4 pi y and S1 = sum of signs cos 2 pi y, 0 without
+/// signs; one part per row, and so the same at any number of threads.
 template <class Part, class Visit>
-std::vector<Part> for_all_ways(const WaveReading& reading, const std::vector<double>& signs, const Visit& visit)
+std::vector<Part> for_all_ways(const WaveReading& reading, std::vector<double> signs, const Visit& visit)
 {
     const WaveGrid& grid = *reading.grid;
     const int rows = static_cast<int>(grid.rows.size());
     const int views = static_cast<int>(reading.views.size());
+    const bool matches = !signs.empty();
+    signs.resize(RowScan::padded(signs.size()), 0);
     std::vector<Part> parts(static_cast<std::size_t>(rows) * views);
     for_chunks(rows * views, 16, [&](int begin, int end) {
         for (int i = begin; i < end; ++i) {
@@ -93,13 +137,11 @@ std::vector<Part> for_all_ways(const WaveReading& reading, const std::vector<dou
             double& along = row.undone < 0 ? way.u : way.t;
             along = row.first;
             RowScan scan(reading, way, grid.step);
-            std::vector<double> padded(signs);
-            padded.resize(scan.padded(), 0);
             const double n = static_cast<double>(view.phase.size());
             const double widest = view.bend.empty() ? 1e-9 : 1e9; // of shifts: none, where only the rest is asked for
             for (std::size_t j = 0; j < row.log_weight.size(); ++j) {
-                double squares, matched;
-                scan.take(padded.data(), squares, matched);
+                const double matched = matches ? scan.matched(signs.data()) : 0;
+                const double squares = scan.take();
                 along = row.first + static_cast<double>(j) * grid.step;
                 way.log_weight = view.log_weight + row.log_weight[j];
                 if (std::abs(along) < widest)
@@ -110,17 +152,20 @@ std::vector<Part> for_all_ways(const WaveReading& reading, const std::vector<dou
     return parts;
 }
 
-/// Keeps the best, the best first; of equals the earlier.
-void keep(std::vector<WavePresence::Found>& best, const WavePresence::Found& one)
+void insert(std::vector<WavePresence::Found>& best, const WavePresence::Found& one)
 {
-    if (best.size() == WavePresence::most_kept) {
-        if (!(one.share > best.back().share))
-            return;
+    if (best.size() == WavePresence::most_kept)
         best.pop_back();
-    }
     const auto after =
         std::find_if(best.begin(), best.end(), [&](const auto& other) { return other.share < one.share; });
     best.insert(after, one);
+}
+
+/// Keeps the best, the best first; of equals the earlier.
+void keep(std::vector<WavePresence::Found>& best, const WavePresence::Found& one)
+{
+    if (best.size() < WavePresence::most_kept || one.share > best.back().share)
+        insert(best, one);
 }
 
 } // namespace
@@ -128,25 +173,24 @@ void keep(std::vector<WavePresence::Found>& best, const WavePresence::Found& one
 WavePresence wave_presence(const WaveReading& reading)
 {
     struct Part {
-        double log_evidence = -never;
+        LogSum evidence;
         std::vector<WavePresence::Found> best;
     };
     const int count = static_cast<int>(reading.views.front().phase.size());
     const CosineTail& tail = cosine_tail(count);
-    const auto parts = for_all_ways<Part>(reading, std::vector<double>(count, 0),
-                                          [&](Part& part, const WaveWay& way, double gathered, double) {
-                                              const double share = way.log_weight - tail(gathered);
-                                              keep(part.best, {share, way});
-                                              if (share > part.log_evidence - 40)
-                                                  part.log_evidence = log_add(part.log_evidence, share);
-                                          });
+    const auto parts = for_all_ways<Part>(reading, {}, [&](Part& part, const WaveWay& way, double gathered, double) {
+        const double share = way.log_weight - tail(gathered);
+        keep(part.best, {share, way});
+        part.evidence.add(share);
+    });
     WavePresence result;
-    result.log_evidence = -never;
+    LogSum evidence;
     for (const Part& part : parts) {
-        result.log_evidence = log_add(result.log_evidence, part.log_evidence);
+        evidence.add(part.evidence.log());
         for (const WavePresence::Found& found : part.best)
             keep(result.best, found);
     }
+    result.log_evidence = evidence.log();
     const WaveWay& way = result.best.front().way;
     double gathered = 0;
     for (const double y : wave_phases(reading, way))
