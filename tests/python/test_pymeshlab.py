@@ -152,6 +152,23 @@ except pymeshlab.PyMeshLabException as error:
         assert KEY.encode() not in text
 
 
+@pytest.mark.parametrize("threads", [1, 4])
+def test_so_many_threads_as_the_environment_asks_for(threads: int) -> None:
+    program = f"""
+import os
+import pymeshlab
+pymeshlab.load_plugin({str(PyMeshLab.plugin)!r})
+meshes = pymeshlab.MeshSet()
+meshes.load_new_mesh({str(FANDISK)!r})
+before = len(os.listdir("/proc/self/task"))
+meshes.apply_filter("apply_coord_watermark", message="{MESSAGE}", method="L-M", key="{KEY}")
+print(1 + len(os.listdir("/proc/self/task")) - before)
+"""
+    environment = {**os.environ, "OMP_NUM_THREADS": str(threads)}
+    done = subprocess.run([sys.executable, "-c", program], env=environment, stdout=subprocess.PIPE, check=True)
+    assert int(done.stdout.split()[-1]) == threads
+
+
 FAILURES: list[tuple[dict[str, Value], str]] = [
     ({"Key": ""}, "key is empty"),
     ({"Key": "file:/no/such/key"}, "key"),

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
+#include <cstdlib>
 #include <deque>
 #include <exception>
 #include <memory>
@@ -22,10 +23,21 @@ namespace {
 
 std::atomic<int> wanted_threads{0};
 
+/// What OMP_NUM_THREADS asks for, or one per core. The system counts cores by reading files, so it is asked once.
+int usual_threads()
+{
+    static const int count = [] {
+        const char* const asked = std::getenv("OMP_NUM_THREADS");
+        const int number = asked ? std::atoi(asked) : 0;
+        return number > 0 ? number : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    }();
+    return count;
+}
+
 int thread_count()
 {
     const int wanted = wanted_threads;
-    return wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    return wanted > 0 ? wanted : usual_threads();
 }
 
 /// The pieces of one call of for_chunks(), for whoever comes to take some.

@@ -10,8 +10,8 @@
 
 namespace vcg_ext {
 
-/// Sets how many threads for_chunks() uses; 0 (the default) is one per core. For tests: no result depends on it.
-/// Threads that are there already stay for later calls.
+/// Sets how many threads for_chunks() uses; 0 (the default) is as many as OMP_NUM_THREADS says, or else one per core. For
+/// tests: no result depends on it. Threads that are there already stay for later calls.
 void set_threads(int count);
 
 /// How many pieces of `chunk` elements [0, count) has; the last may be shorter.
