@@ -20,16 +20,23 @@ def client(scheduler: str | None, workers: int = 0) -> Iterator[Client]:
         with Client(scheduler) as remote:
             yield remote
         return
+    cores = os.cpu_count() or 1
+    workers = workers or cores
     with (
         dask.config.set(
             {
                 "distributed.scheduler.worker-ttl": None,  # a machine that slept is no dead worker, nor a paused run
                 "distributed.scheduler.http.routes": [],  # other users of this machine can reach its ports
                 "distributed.worker.http.routes": [],
+                "distributed.nanny.pre-spawn-environ": {"MALLOC_TRIM_THRESHOLD_": 1 << 30},  # memory is asked for again
+                "distributed.nanny.environ": {"OMP_NUM_THREADS": max(1, cores // workers)},  # the plugin's, too
+                "distributed.worker.profile.enabled": False,  # which looks at each process 100 times a second
+                "distributed.worker.memory.monitor-interval": "1s",
+                "distributed.admin.system-monitor.interval": "60s",
             }
         ),
         LocalCluster(
-            n_workers=workers or os.cpu_count(), threads_per_worker=1, silence_logs=logging.ERROR,
+            n_workers=workers, threads_per_worker=1, silence_logs=logging.ERROR,
             security=Security.temporary(), dashboard_address="127.0.0.1:0", scheduler_kwargs={"dashboard": False},
         ) as cluster,
         Client(cluster) as local,

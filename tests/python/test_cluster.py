@@ -2,6 +2,7 @@
 """What comes of jobs: a result, an error, or nothing where the cluster is gone."""
 
 import http.client
+import os
 from contextlib import closing
 
 import meshmark
@@ -35,3 +36,12 @@ def test_no_page_tells_other_users_of_the_machine_about_jobs() -> None:
             with closing(http.client.HTTPConnection(server.address, server.port, timeout=20)) as asked:
                 asked.request("GET", path)
                 assert asked.getresponse().status == 404
+
+
+def test_workers_share_the_cores(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each would else start a thread for every core."""
+    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
+    cores = os.cpu_count() or 1
+    for workers, threads in ((1, cores), (0, 1)):
+        with client(None, workers) as dask:
+            assert dask.submit(os.getenv, "OMP_NUM_THREADS").result() == str(threads)
