@@ -219,10 +219,13 @@ def _excess(job: Job, strength: float, site: Site) -> float:
             results = apply(meshes, plugin.EMBED, message=job.message, strength=strength, **_carriers(job))
         except Refused:
             return math.inf
-        if any(name not in results for name, _ in job.limits):  # MSDM, which takes no samples
+        missing = [name for name, _ in job.limits if name not in results]
+        if missing:  # MSDM, which takes no samples
             results = apply(meshes, plugin.MEASURE, reference=0, samples=1) | results
         excess = _worst(job, results)
-        return excess if excess > 1 else _worst(job, apply(meshes, plugin.MEASURE, reference=0))  # as reported
+        if excess > 1 or len(missing) == len(job.limits):
+            return excess
+        return _worst(job, apply(meshes, plugin.MEASURE, reference=0))  # as reported
 
 
 def _worst(job: Job, results: Numbers) -> float:
