@@ -107,7 +107,7 @@ def _read_with_original(meshes: pymeshlab.MeshSet, job: Job, site: Site) -> Numb
     meshes.set_current_mesh(suspect)
     found = apply(meshes, plugin.DETECT_WITH_ORIGINAL, expected=job.message, original=original, **_carriers(job))
     return {
-        "detection_ratio_original": found["detection_ratio"],
+        "detection_ratio_original": found.get("detection_ratio", 0.5),  # where the two do not fit, a coin's
         "log10_p_original": math.log10(found["p_value"]),
         "log10_p_alone_original": math.log10(found["p_message"]),  # the original and the key, no message
     }

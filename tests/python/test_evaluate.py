@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from doors import MESHES, PyMeshLab
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPTS = ROOT / "meshlab_scripts"
@@ -224,6 +225,16 @@ def test_what_is_reported_keeps_the_limit(tmp_path: Path) -> None:
     marks = results[results["kind"] == "embed"]
     assert len(marks) == 2
     assert marks["mrms_relative"].astype(float).between(0.98e-4, 1e-4).all()
+
+
+def test_a_mesh_that_does_not_fit_the_original_is_read_as_a_coin() -> None:
+    """And its job does not fail, so that what the key alone reads is kept."""
+    site = Site(MESHES, PyMeshLab.plugin, Path())
+    work.plugin.load(site.plugin)
+    job = Job(kind="attack", mesh="homer", mesh_digest="", plugin_digest="", method="L-MMean", original=True)
+    with work.opened(MESHES / "fandisk.off") as meshes:
+        read = work._read_with_original(meshes, job, site)
+    assert read == {"detection_ratio_original": 0.5, "log10_p_original": 0, "log10_p_alone_original": 0}
 
 
 def test_no_strength_keeps_the_limits_and_is_sought_once(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
