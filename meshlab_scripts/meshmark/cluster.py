@@ -28,7 +28,9 @@ def client(scheduler: str | None, workers: int = 0) -> Iterator[Client]:
                 "distributed.scheduler.worker-ttl": None,  # a machine that slept is no dead worker, nor a paused run
                 "distributed.scheduler.http.routes": [],  # other users of this machine can reach its ports
                 "distributed.worker.http.routes": [],
-                "distributed.nanny.pre-spawn-environ": {"MALLOC_TRIM_THRESHOLD_": 1 << 30},  # memory is asked for again
+                "distributed.nanny.pre-spawn-environ": {  # memory that is given back is asked for again
+                    "MALLOC_TRIM_THRESHOLD_": 1 << 30, "MALLOC_MMAP_THRESHOLD_": 32 << 20,
+                },
                 "distributed.nanny.environ": {"OMP_NUM_THREADS": max(1, cores // workers)},  # the plugin's, too
                 "distributed.worker.profile.enabled": False,  # which looks at each process 100 times a second
                 "distributed.worker.memory.monitor-interval": "1s",
